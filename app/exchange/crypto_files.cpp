@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "app/project/region_matte_sources.h"
+#include "app/exchange/region_matte_sources.h"
 #include "engine/core/setting.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/sequence_files.h"

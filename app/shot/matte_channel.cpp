@@ -1,6 +1,6 @@
 #include "app/shot/matte_channel.h"
 
-#include "app/project/region_matte_sources.h"
+#include "app/exchange/region_matte_sources.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_files.h"
 

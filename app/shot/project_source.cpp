@@ -6,6 +6,8 @@
 #include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
 #include "engine/color/color_space.h"
+#include "engine/core/text.h"
+#include "engine/media/form_passes.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
 
@@ -97,6 +99,14 @@ class ProjectSource final : public ShotSource {
     [[nodiscard]] Expected<ImageF1> depth(int region, int frame) const override {
         const std::string& files = at(region).finish.depth;
         if (files.empty()) return ImageF1();
+        if (lower_case(std::filesystem::path(files).extension().string()) == ".exr") {
+            // The picture comes first in a renderer's file; the depth has a channel of its own.
+            WEFT_TRY(pattern, SequencePattern::parse(files));
+            WEFT_TRY(near, read_depth(watched(path_on(pattern, frame)), size()));
+            std::transform(near.data(), near.data() + near.size_bytes() / sizeof(float),
+                           near.data(), [](float v) { return v > 0 ? 1.0f / v : 0.0f; });
+            return near;
+        }
         WEFT_TRY(picture, read_pass(files, frame));
         // A float file holds distances; an integer file holds a depth map made for viewing.
         const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;

@@ -104,20 +104,6 @@ class ShotOpener {
                                  by({{setting}}) + ", or convert it.");
     }
 
-    void warn_of_transparency(const std::string& texture, const ImageF1& alpha) {
-        // What antialiasing or rounding leaves does not show.
-        constexpr float kOpaque = 0.99f;
-        const auto clear =
-            std::count_if(alpha.data(), alpha.data() + alpha.size_bytes() / sizeof(float),
-                          [](float a) { return a < kOpaque; });
-        if (clear == 0) return;
-        shot_.warnings.push_back("The texture " + texture + " is transparent in " +
-                                 std::to_string(clear) +
-                                 " pixels. A texture's alpha is not used, so they show the colour "
-                                 "that is stored there, often black. Crop it to what is opaque, or "
-                                 "put it over a colour first.");
-    }
-
     static Expected<ColorSpace> space(const std::string& given, const char* by_file_type) {
         return parse_color_space(given.empty() ? by_file_type : given);
     }
@@ -305,7 +291,8 @@ class ShotOpener {
                                      std::to_string(picture.nonfinite) +
                                      " pixels of NaN or infinity; they are taken as black.");
         }
-        warn_of_transparency(path, picture.alpha);
+        if (std::string clear = transparency_warning(path, picture.alpha); !clear.empty())
+            shot_.warnings.push_back(std::move(clear));
         OpenTexture out;
         out.pixels = std::move(picture.rgb);
         out.space = texture_space;

@@ -25,4 +25,16 @@ Expected<ReadTexture> read_texture(const std::string& path, const std::string& l
     return out;
 }
 
+std::string transparency_warning(const std::string& path, const ImageF1& alpha) {
+    // What antialiasing or rounding leaves does not show.
+    constexpr float kOpaque = 0.99f;
+    const auto clear =
+        std::count_if(alpha.data(), alpha.data() + alpha.size_bytes() / sizeof(float),
+                      [](float a) { return a < kOpaque; });
+    if (clear == 0) return {};
+    return "The texture " + path + " is transparent in " + std::to_string(clear) +
+           " pixels. A texture's alpha is not used, so they show the colour that is stored there, "
+           "often black. Crop it to what is opaque, or put it over a colour first.";
+}
+
 }  // namespace weft

@@ -19,4 +19,8 @@ struct ReadTexture {
 [[nodiscard]] Expected<ReadTexture> read_texture(const std::string& path,
                                                  const std::string& library);
 
+/// What to say of a texture whose `alpha` (H×W, 0–1, may be empty) is not opaque everywhere, since
+/// alpha is not used; empty: nothing.
+[[nodiscard]] std::string transparency_warning(const std::string& path, const ImageF1& alpha);
+
 }  // namespace weft

@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "app/project/region_matte_sources.h"
+#include "app/exchange/region_matte_sources.h"
 #include "app/shot/frame_plan.h"
 
 namespace weft {

@@ -1,17 +1,21 @@
 // A project opened: its frames, its files, its plan.
 #include "app/shot/shot.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "app/exchange/region_matte_sources.h"
 #include "app/shot/frame_plan.h"
+#include "app/shot/matte_channel.h"
 #include "app/shot/missing_frames.h"
 #include "app/shot/project_source.h"
 #include "app/shot/scene_cuts.h"
 #include "app/shot/shot_inputs.h"
-#include "engine/media/frame_writer.h"
+#include "app/shot/texture_file.h"
+#include "app/shot/trimmed_frames.h"
 #include "tests/render/shot_fixture.h"
 
 namespace weft::test {
@@ -81,13 +85,45 @@ TEST_F(OpenShot, WhatIsSetBeyondATrimmedPlateIsLeftOut) {
     EXPECT_EQ(painted_on({-1, 9}).error().code, ErrorCode::kMissingFrames);
 }
 
-TEST_F(OpenShot, ATransparentTextureGivesAWarning) {
-    ImageF1 alpha(Size{128, 128}, 1.0f);
-    alpha.at(5, 5) = 0;
-    ASSERT_TRUE(write_image(in("tile.png"), pattern_picture({128, 128}, 5), alpha, {}));
-    const auto shot = open_shot(project());
+TEST(ShotTexture, ATransparentOneGivesAWarning) {
+    ImageF1 alpha(Size{4, 4}, 1.0f);
+    EXPECT_EQ(transparency_warning("t.png", alpha), "");
+    EXPECT_EQ(transparency_warning("t.png", {}), "");
+    alpha.at(2, 1) = 0;
+    EXPECT_THAT(transparency_warning("t.png", alpha), HasSubstr("transparent in 1 pixel"));
+}
+
+TEST(ShotMattes, OfASequenceHaveOneChannel) {
+    Region region;
+    MatteSource files;
+    files.files = "none/m.####.png";
+    region.matte = files;
+    region.holdouts = std::vector<MatteSource>{files};
+    choose_matte_channels(region, {1, 2});
+    for (const MatteSource* matte : matte_sources(region))
+        EXPECT_EQ(matte->select.channel, "");  // no file tells
+    EXPECT_EQ(matte_sources(region).size(), 2u);
+}
+
+// A renderer's file begins with the picture; its depth is in a channel of its own.
+TEST_F(OpenShot, TheDepthOfARenderIsItsDepthChannel) {
+    const ImageF3 plate = card_plate(0);
+    const Size size = plate.size();
+    OIIO::ImageSpec spec(size.width, size.height, 4, OIIO::TypeFloat);
+    spec.channelnames = {"R", "G", "B", "ViewLayer.Depth.Z"};
+    std::vector<float> data;
+    for (int i = 0; i < size.width * size.height; ++i)
+        data.insert(data.end(), {0.8f, 0.1f, 0.1f, 4.0f});
+    auto output = OIIO::ImageOutput::create(in("depth.exr"));
+    ASSERT_TRUE(output->open(in("depth.exr"), spec));
+    ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+    ASSERT_TRUE(output->close());
+    Project with_depth = project();
+    with_depth.regions[0] =
+        with_depth.regions[0].with([&](Region& region) { region.finish.depth = in("depth.exr"); });
+    const auto shot = open_shot(with_depth);
     ASSERT_TRUE(shot) << shot.error().text();
-    EXPECT_THAT((*shot)->warnings, Contains(HasSubstr("transparent in 1 pixel")));
+    EXPECT_FLOAT_EQ((*shot)->source->depth(0, 1).value().at(3, 3), 0.25f);
 }
 
 TEST_F(OpenShot, AGapIsHeldAndSaysWhichFrameIsShown) {
