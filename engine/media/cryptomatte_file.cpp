@@ -45,7 +45,7 @@ constexpr std::uint64_t kManifestLimit_bytes = std::uint64_t{64} << 20;
 // From the header, or from a file beside the picture.
 std::string manifest_text(const OIIO::ImageSpec& spec, const std::string& key,
                           const std::string& path) {
-    const std::string inside(spec.get_string_attribute(key + "manifest"));
+    std::string inside(spec.get_string_attribute(key + "manifest"));
     const std::string file(spec.get_string_attribute(key + "manif_file"));
     if (!inside.empty() || file.empty() || file.find('/') != std::string::npos) return inside;
     const auto beside = std::filesystem::path(path).parent_path() / file;
