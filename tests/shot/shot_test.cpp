@@ -16,6 +16,7 @@
 #include "app/shot/shot_inputs.h"
 #include "app/shot/texture_file.h"
 #include "app/shot/trimmed_frames.h"
+#include "engine/media/frame_writer.h"
 #include "tests/render/shot_fixture.h"
 
 namespace weft::test {
@@ -93,16 +94,24 @@ TEST(ShotTexture, ATransparentOneGivesAWarning) {
     EXPECT_THAT(transparency_warning("t.png", alpha), HasSubstr("transparent in 1 pixel"));
 }
 
-TEST(ShotMattes, OfASequenceHaveOneChannel) {
+// The element fills frame 1, where its alpha is opaque everywhere.
+TEST_F(OpenShot, MattesOfASequenceHaveOneChannel) {
+    std::filesystem::create_directory(in("rgba"));
+    ImageF1 alpha(Size{4, 4}, 1.0f);
+    for (const char* name : {"rgba/0001.png", "rgba/0002.png"}) {
+        const auto written = write_image(in(name), ImageF3(Size{4, 4}, 0.0f), alpha, {});
+        ASSERT_TRUE(written) << written.error().text();
+        alpha.at(2, 1) = 0;
+    }
     Region region;
     MatteSource files;
-    files.files = "none/m.####.png";
+    files.files = in("rgba/####.png");
     region.matte = files;
     region.holdouts = std::vector<MatteSource>{files};
     choose_matte_channels(region, {1, 2});
+    ASSERT_EQ(matte_sources(region).size(), 2u);
     for (const MatteSource* matte : matte_sources(region))
-        EXPECT_EQ(matte->select.channel, "");  // no file tells
-    EXPECT_EQ(matte_sources(region).size(), 2u);
+        EXPECT_EQ(matte->select.channel, "A");
 }
 
 // A renderer's file begins with the picture; its depth is in a channel of its own.
