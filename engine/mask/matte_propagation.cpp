@@ -9,6 +9,7 @@
 #include "engine/mask/background_motion.h"
 #include "engine/mask/background_plate.h"
 #include "engine/mask/boundary_refiner.h"
+#include "engine/mask/departure.h"
 #include "engine/mask/flat_fills.h"
 #include "engine/mask/growth_evidence.h"
 #include "engine/mask/hidden_part.h"
@@ -104,6 +105,7 @@ struct MatteWalker::State {
     Matte last;                         ///< The matte of the walk's last frame.
     SurfaceReturn hidden;
     FlatFills fills;
+    Departure departure;
     MotionSides sides = {};
     Uncovered uncovered = {};
     Newcomers newcomers = {};
@@ -151,7 +153,8 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            kClearancePx,
                                            copy_of(key),
                                            SurfaceReturn(frame, phi),
-                                           FlatFills(frame, phi)});
+                                           FlatFills(frame, phi),
+                                           Departure(phi)});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
     const ImageF1& softness = state_->key_softness;
@@ -213,6 +216,7 @@ RefinedBoundary MatteWalker::State::find_boundary(ViewU8x3 part, const Transport
     judge_uncovered(part, shape.uncovered, colors, palette, matched, wide);
     add_sides(sides.advance({phi, prev_from_cur, shape.outside_motion, area, unit_px()}), shape.phi,
               matched, wide);
+    add_odds(departure.advance(phi, prev_from_cur, unit_px()), palette, part, area, matched, wide);
     add_newcomers(newcomers.advance({part, frame, phi, prev_from_cur, shape.outside_motion,
                                      shape.uncovered.appearing, shape.phi, area, unit_px()}),
                   matched, wide);
@@ -325,6 +329,7 @@ MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
         move_seen(s.seen, s.phi);
         s.plate.forget(wrong);
         s.plate.update(s.frame, s.seen_phi());
+        s.departure.forget(wrong);
         s.sides.forget(wrong);
         s.newcomers.forget(wrong);
     }

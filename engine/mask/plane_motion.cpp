@@ -20,9 +20,21 @@ PlaneMotion::PlaneMotion(Size frame)
 PlaneMotion::PlaneMotion(std::vector<MotionSample> samples, Size frame) : PlaneMotion(frame) {
     constexpr std::size_t kFewest = 4 * kTerms;
     if (samples.size() < kFewest) return;
+    // Begins with the median shift: a third of a frame that moves otherwise would drag a fit of
+    // all.
+    const auto median = [&](float Vec2::*of) {
+        std::vector<float> all(samples.size());
+        std::transform(samples.begin(), samples.end(), all.begin(),
+                       [&](const MotionSample& s) { return s.d.*of; });
+        const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+        std::nth_element(all.begin(), middle, all.end());
+        return static_cast<double>(*middle);
+    };
+    p_[0] = median(&Vec2::x);
+    p_[3] = median(&Vec2::y);
     std::vector<float> misses(samples.size());
-    for (int round = 0; round < kRounds; ++round) {
-        fit(samples);
+    for (int round = 0; round <= kRounds; ++round) {
+        if (round > 0) fit(samples);
         for (std::size_t i = 0; i < samples.size(); ++i)
             misses[i] = glm::length(samples[i].d - at(samples[i].x, samples[i].y));
         std::vector<float> sorted = misses;

@@ -1,0 +1,59 @@
+#pragma once
+// What moves otherwise than the background, and what stays with it.
+
+#include <array>
+#include <cstddef>
+
+#include "engine/core/fields.h"
+#include "engine/core/image.h"
+#include "engine/mask/surface_palette.h"
+
+namespace weft {
+
+/// Evidence from how far a pixel's motion departs from the background's: from one plane's that is
+/// fitted to all that is outside, or from what is near, whichever is nearer, since backgrounds have
+/// depth. How often each departure occurs inside and outside is counted on every frame (the naive
+/// Bayes of Criminisi et al. 2006, "Bilayer segmentation of live video", with counts in place of
+/// training), so a surface that rests on its background, or one that moves as other things around
+/// it do, gives no evidence. Motion speaks against what has just come in, such as the ground that a
+/// car uncovers, and hardly against what has long been inside and got there by its own motion, such
+/// as a foot that rests. Not thread-safe.
+class Departure {
+  public:
+    /// `key_phi`: signed distance of the painted matte, px.
+    explicit Departure(ViewF1 key_phi);
+
+    /// Goes on by a frame. `prev_phi`: signed distance of the matte's boundary in the frame before,
+    /// px; `flow`: prev_from_cur as measured; `unit_px`: a pixel of 854×480. All of one size. Log
+    /// odds for inside, H×W, −kMostAgainst to kMostFor. Parallel over rows; deterministic.
+    const ImageF1& advance(ViewF1 prev_phi, const FlowField& flow, float unit_px);
+
+    /// Nothing has been seen of the pixels of the last frame that are not 0 here.
+    void forget(ViewU8x1 where);
+
+    static constexpr float kMostAgainst = 6;
+    /// Less than against, because measured motion spreads over edges.
+    static constexpr float kMostFor = 1.5f;
+
+  private:
+    static constexpr std::size_t kBins = 18;
+    using Shares = std::array<float, kBins>;
+
+    struct Step;
+    void count(const Step& step);
+    [[nodiscard]] Shares odds() const;
+    [[nodiscard]] float odds_now(float departure, float age, const Shares& odds) const;
+
+    ImageF1 age_;   // for how many frames each pixel of the last frame has been inside
+    ImageF1 odds_;  // of the last frame
+    Shares inside_{}, outside_{};  // running shares of each departure
+};
+
+/// Adds what Departure::advance() says to the log odds near the boundary and to those that reopen a
+/// decided part (`wide`), both over `area` as `part` of the frame is. What moves with the
+/// background is outside even where the clean plate does not know it, unless its colour is clearly
+/// the surface's own.
+void add_odds(const ImageF1& departure, const SurfacePalette& palette, ViewU8x3 part,
+              const Recti& area, ImageF1& near, ImageF1& wide);
+
+}  // namespace weft

@@ -1,0 +1,98 @@
+#include "engine/mask/departure.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/mask/signed_distance.h"
+
+namespace weft {
+namespace {
+
+constexpr Size kFrame{320, 240};
+
+// A square of 80 px that moves to the right by 4 px a frame over a background that stands still.
+// `leak`: the frame before took in the strip of 24 px that it leaves behind as well.
+struct Scene {
+    Recti square{120, 80, 200, 160};
+    FlowField flow{kFrame};
+
+    void step() {
+        square = {square.x0 + 4, square.y0, square.x1 + 4, square.y1};
+        for (int y = 0; y < kFrame.height; ++y) {
+            for (int x = 0; x < kFrame.width; ++x) {
+                flow.d.pixel(x, y)[0] = square.contains(x, y) ? -4.0f : 0.0f;
+                flow.d.pixel(x, y)[1] = 0;
+                const bool uncovered =
+                    x >= square.x0 - 4 && x < square.x0 && y >= square.y0 && y < square.y1;
+                flow.valid.row(y)[x] = uncovered ? 0 : 1;
+            }
+        }
+    }
+    [[nodiscard]] ImageF1 phi(int leak_px = 0) const {
+        Matte inside(kFrame);
+        for (int y = square.y0; y < square.y1; ++y)
+            for (int x = square.x0 - leak_px; x < square.x1; ++x)
+                inside.at(x, y) = 1;
+        return signed_distance(inside, 40);
+    }
+};
+
+TEST(Departure, SpeaksAgainstTheGroundThatIsUncoveredAndForWhatMovesOn) {
+    Scene scene;
+    Departure departure(scene.phi());
+    ImageF1 odds;
+    for (int frame = 0; frame < 6; ++frame) {
+        const ImageF1 before = scene.phi(frame == 0 ? 0 : 4);
+        scene.step();
+        odds = departure.advance(before, scene.flow, 1);
+    }
+    EXPECT_LT(odds.at(scene.square.x0 - 6, 120), -2) << "uncovered on the frame before";
+    EXPECT_GT(odds.at(160, 120), 0) << "the surface";
+    EXPECT_LT(odds.at(20, 20), -2) << "the background";
+}
+
+TEST(Departure, SparesWhatHasLongBeenInsideAndRests) {
+    // The lower left corner of the surface stands still like the ground, as a foot does.
+    Scene scene;
+    Departure departure(scene.phi());
+    const ImageF1 before = scene.phi();
+    scene.step();
+    const Recti foot{124, 140, 144, 160};
+    for (int y = foot.y0; y < foot.y1; ++y)
+        for (int x = foot.x0; x < foot.x1; ++x)
+            scene.flow.d.pixel(x, y)[0] = 0;
+    const ImageF1 odds = departure.advance(before, scene.flow, 1);
+    EXPECT_GT(odds.at(134, 150), -1);
+    EXPECT_LT(odds.at(20, 20), -2);
+}
+
+TEST(Departure, SaysNothingOfASurfaceThatRestsOnItsBackground) {
+    Scene scene;
+    FlowField still(kFrame);
+    for (int y = 0; y < kFrame.height; ++y)
+        for (int x = 0; x < kFrame.width; ++x)
+            still.valid.row(y)[x] = 1;
+    Departure departure(scene.phi());
+    const ImageF1 odds = departure.advance(scene.phi(), still, 1);
+    for (int y = 0; y < kFrame.height; ++y)
+        for (int x = 0; x < kFrame.width; ++x)
+            ASSERT_EQ(odds.at(x, y), 0.0f) << x << ", " << y;
+}
+
+TEST(Departure, ForgetsWhatWasCorrected) {
+    Scene scene;
+    Departure departure(scene.phi());
+    const ImageF1 before = scene.phi();
+    scene.step();
+    const float once = departure.advance(before, scene.flow, 1).at(20, 20);
+    Matte where(kFrame);
+    where.at(20, 20) = 255;
+    departure.forget(where);
+    const ImageF1 later = scene.phi();
+    scene.step();
+    const ImageF1& odds = departure.advance(later, scene.flow, 1);
+    EXPECT_NEAR(odds.at(20, 20), once, 0.01f);
+    EXPECT_LT(odds.at(24, 20), once - 1);
+}
+
+}  // namespace
+}  // namespace weft
