@@ -105,7 +105,9 @@ Table light_entries() {
             {.group = "light",
              .key = "pass_layer",
              .flag = "--light-layer",
-             .help = "EXR layer of the albedo or lighting pass"}),
+             .help =
+                 "EXR layer of the albedo or lighting pass, several joined by + to add them up; "
+                 "default DiffCol or albedo, DiffDir+DiffInd"}),
         entry<R, &R::light, &LightParams::exact>(
             {.group = "light",
              .key = "exact",
@@ -222,6 +224,11 @@ Table finish_entries() {
              .flag = "--depth-pass",
              .help = "Pattern of a depth pass that guides defocus",
              .is_path = true}),
+        entry<R, &R::finish, &FinishParams::depth_layer>(
+            {.group = "finish",
+             .key = "depth_layer",
+             .flag = "--depth-layer",
+             .help = "EXR layer of the depth pass; default Depth or Z"}),
         entry<R, &R::finish, &FinishParams::shutter_deg>(
             {.group = "finish",
              .key = "shutter_deg",
