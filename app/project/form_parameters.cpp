@@ -68,7 +68,8 @@ std::vector<Parameter<Region>> form_parameters() {
             {.group = "form",
              .key = "normal_space",
              .flag = "--normal-space",
-             .help = "Axes of the normal pass: as the file tells (auto), the camera's, or the world's, which "
+             .help = "Axes of the normal pass: as the file tells (auto), the camera's, or the "
+                     "world's, which "
                      "needs the camera in the file's header or a position pass in it"}),
         entry<R, &R::form, &FormParams::source>({.group = "form",
                                                  .key = "source",
