@@ -59,7 +59,7 @@ TEST_F(FormPasses, PositionPassesAreFoundByTheirNames) {
     put("none.exr", {"R", "G", "B", "A", "AP.R"}, {0, 0, 0, 1, 0});
     const auto none = at("none.exr");
     ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("AP.R"));
+    EXPECT_THAT(none.error().message, HasSubstr("AP: R"));
 }
 
 TEST_F(FormPasses, NormalsAreVectorsOrCodes) {
