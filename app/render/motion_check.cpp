@@ -109,6 +109,7 @@ Error nothing_moves(const Region& region, const Checked& at) {
 
 std::string other_motion(const Region& region, const std::vector<Checked>& wrong) {
     std::vector<int> frames;
+    frames.reserve(wrong.size());
     for (const Checked& at : wrong)
         frames.push_back(at.frame);
     const MotionFit& fit = wrong.front().fit;
