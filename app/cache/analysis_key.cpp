@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
 constexpr int kAnalysisVersion = 35;
-constexpr int kFormVersion = 5;   // of the form alone
-constexpr int kFocusVersion = 1;  // of the focus alone
+constexpr int kFormVersion = 6;   // of the form alone
+constexpr int kFocusVersion = 2;  // of the focus alone
 
 void add_file(Hasher& hasher, const std::string& path) {
     std::error_code error;
@@ -267,12 +267,14 @@ Expected<std::string> focus_key(const Shot& shot, std::size_t index, const Paint
     hasher.text("focus").value(kFocusVersion).text(shot.spaces.working.name);
     WEFT_CHECK_OK(add_mattes(hasher, region, painted));
     WEFT_CHECK_OK(add_pattern(hasher, region.finish.depth));
+    hasher.text(region.finish.depth_layer);
     // The light, whose edges do not count.
     const bool passes = plan.light_pass != RegionPlan::Pass::kNone && plan.lights();
     hasher.value(plan.estimates_light()).value(passes).value(plan.detail);
     if (passes) {
         WEFT_CHECK_OK(add_pattern(hasher, region.light.albedo));
         WEFT_CHECK_OK(add_pattern(hasher, region.light.lighting));
+        hasher.text(region.light.pass_layer);
     }
     for (const Zone& zone : *region.zones) {
         if (zone.kind != ZoneKind::kDetail) continue;

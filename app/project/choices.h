@@ -85,8 +85,10 @@ struct Choices<FormSource> {
 };
 template <>
 struct Choices<NormalSpace> {
-    static constexpr std::array<std::pair<NormalSpace, std::string_view>, 2> kNames{
-        {{NormalSpace::kCamera, "camera"}, {NormalSpace::kWorld, "world"}}};
+    static constexpr std::array<std::pair<NormalSpace, std::string_view>, 3> kNames{
+        {{NormalSpace::kAuto, "auto"},
+         {NormalSpace::kCamera, "camera"},
+         {NormalSpace::kWorld, "world"}}};
 };
 template <>
 struct Choices<DepthKind> {

@@ -56,8 +56,7 @@ std::vector<Parameter<Region>> form_parameters() {
             {.group = "form",
              .key = "normal",
              .flag = "--normal-pass",
-             .help =
-                 "Normal pass, EXR or a normal map: the texture follows the form of the surface",
+             .help = "Normal pass, EXR or a normal map: the texture follows its form",
              .is_path = true}),
         entry<R, &R::form, &FormParams::normal_layer>(
             {.group = "form",
@@ -68,15 +67,12 @@ std::vector<Parameter<Region>> form_parameters() {
             {.group = "form",
              .key = "normal_space",
              .flag = "--normal-space",
-             .help = "Axes of the normal pass; world needs the camera in the file's header"}),
-        entry<R, &R::form, &FormParams::source>({.group = "form",
-                                                 .key = "source",
-                                                 .flag = "--form",
-                                                 .help =
-                                                     "What shows the form: a pass, else a "
-                                                     "shape, else the motion (auto), a position "
-                                                     "or normal pass, the depth pass, a shape or "
-                                                     "strokes, the outline (inflate), or nothing"}),
+             .help = "Axes of the normal pass; auto: as the file tells"}),
+        entry<R, &R::form, &FormParams::source>(
+            {.group = "form",
+             .key = "source",
+             .flag = "--form",
+             .help = "What shows the form; auto: a pass, else a shape, else the motion"}),
         entry<R, &R::form, &FormParams::shape>(
             {.group = "form",
              .key = "shape",
@@ -99,8 +95,7 @@ std::vector<Parameter<Region>> form_parameters() {
             {.group = "form",
              .key = "depth_kind",
              .flag = "--depth-kind",
-             .help =
-                 "What the depth pass holds: distances along the camera's axis or along the rays"}),
+             .help = "The depth pass: distances along the camera's axis or along the rays"}),
         entry<R, &R::form, &FormParams::fov_deg>(
             {.group = "form",
              .key = "fov_deg",

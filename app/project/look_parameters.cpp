@@ -69,9 +69,7 @@ Table light_entries() {
              .key = "cast",
              .flag = "--light-tint",
              .old_flag = "--light-cast",
-             .help =
-                 "How much of the light's colour the texture takes; default as far as the plate "
-                 "gives evidence of it",
+             .help = "How much of the light's colour the texture takes; default measured",
              .min = 0,
              .max = 1,
              .optional = true}),
@@ -105,7 +103,7 @@ Table light_entries() {
             {.group = "light",
              .key = "pass_layer",
              .flag = "--light-layer",
-             .help = "EXR layer of the albedo or lighting pass"}),
+             .help = "EXR layer of these passes; several joined by + are added up"}),
         entry<R, &R::light, &LightParams::exact>(
             {.group = "light",
              .key = "exact",
@@ -222,14 +220,17 @@ Table finish_entries() {
              .flag = "--depth-pass",
              .help = "Pattern of a depth pass that guides defocus",
              .is_path = true}),
+        entry<R, &R::finish, &FinishParams::depth_layer>(
+            {.group = "finish",
+             .key = "depth_layer",
+             .flag = "--depth-layer",
+             .help = "EXR layer of the depth pass; default Depth or Z"}),
         entry<R, &R::finish, &FinishParams::shutter_deg>(
             {.group = "finish",
              .key = "shutter_deg",
              .flag = "--shutter",
              .unit = "deg",
-             .help =
-                 "Shutter angle of the motion blur; 180 is half a frame, 0 none; default measured "
-                 "on the plate (final quality)",
+             .help = "Shutter angle of the motion blur; default measured (final quality)",
              .min = 0,
              .max = 720,
              .optional = true}),

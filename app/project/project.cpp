@@ -253,11 +253,11 @@ std::size_t own_bytes(const Region& r) {
            heap_bytes_of(r.name, r.texture.sample, r.texture.plane, r.texture.space,
                          r.texture.extra, r.placement.uv, r.placement.uv_layer, r.placement.extra,
                          r.form.position, r.form.position_layer, r.form.normal, r.form.normal_layer,
-                         r.form.extra, r.finish.depth, r.grade.extra, r.layer.extra, r.motion.files,
-                         r.motion.track, r.motion.layer, r.motion.extra, r.synthesis.extra,
-                         r.temporal.extra, r.light.image, r.light.extra, r.light.albedo,
-                         r.light.lighting, r.light.pass_layer, r.finish.extra, r.lines.files,
-                         r.lines.extra, r.extra);
+                         r.form.extra, r.finish.depth, r.finish.depth_layer, r.grade.extra,
+                         r.layer.extra, r.motion.files, r.motion.track, r.motion.layer,
+                         r.motion.extra, r.synthesis.extra, r.temporal.extra, r.light.image,
+                         r.light.extra, r.light.albedo, r.light.lighting, r.light.pass_layer,
+                         r.finish.extra, r.lines.files, r.lines.extra, r.extra);
 }
 
 std::size_t own_bytes(const Project& p) {

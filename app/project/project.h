@@ -171,8 +171,9 @@ enum class FormSource {
 };
 /// The axes of a normal pass.
 enum class NormalSpace {
+    kAuto,  ///< As the file tells; the camera's where it does not.
     kCamera,
-    kWorld  ///< The file's header tells how the camera is turned.
+    kWorld  ///< The file's header tells how the camera is turned, or a position pass beside.
 };
 
 /// The shape of the surface, which the texture follows.
@@ -182,7 +183,7 @@ struct FormParams {
     std::string position_layer;  ///< Empty: found.
     std::string normal;          ///< Pattern of a normal pass.
     std::string normal_layer;    ///< Empty: found.
-    NormalSpace normal_space = NormalSpace::kCamera;
+    NormalSpace normal_space = NormalSpace::kAuto;
     DepthKind depth_kind = DepthKind::kZ;
     std::optional<double> fov_deg;   ///< Horizontal; unset: from the header of the pass, or found.
     std::vector<FormGuide> shape;    ///< At most one, over the surface on the reference frame.
@@ -242,7 +243,7 @@ struct LightParams {
     double roughness = 0;    ///< Of these highlights, 0–1.
     std::string albedo;      ///< Pattern of the albedo (unlit colour) pass.
     std::string lighting;    ///< Pattern of the lighting pass.
-    std::string pass_layer;  ///< EXR layer of these two passes; empty: R, G, B.
+    std::string pass_layer;  ///< EXR layers of these two passes, joined by "+"; empty: found.
     bool exact = false;      ///< Uses their light unchanged, not relative to the reference frame's.
     Extras extra;
     bool operator==(const LightParams&) const = default;
@@ -277,9 +278,10 @@ struct CorrectionPin {
 
 /// Camera effects that match the texture to the plate.
 struct FinishParams {
-    double grain = 1;   ///< Amount of the plate's grain; 0: none.
-    double focus = 1;   ///< Amount of the plate's defocus; 0: none.
-    std::string depth;  ///< Pattern of a depth pass that guides defocus.
+    double grain = 1;         ///< Amount of the plate's grain; 0: none.
+    double focus = 1;         ///< Amount of the plate's defocus; 0: none.
+    std::string depth;        ///< Pattern of a depth pass that guides defocus.
+    std::string depth_layer;  ///< Empty: found.
     /// Shutter angle, 360 is a full frame; unset: measured on the plate.
     std::optional<double> shutter_deg;
     Extras extra;

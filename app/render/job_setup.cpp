@@ -5,6 +5,7 @@
 #include "app/render/existing_frames.h"
 #include "app/render/job_frames.h"
 #include "app/render/memory_plan.h"
+#include "app/render/motion_check.h"
 #include "app/render/plane_file.h"
 #include "app/render/recipe.h"
 #include "app/render/st_map_files.h"
@@ -200,6 +201,10 @@ Expected<JobSetup> set_up_job(const JobSpec& spec, const std::vector<int>& leave
     WEFT_CHECK_OK(check_settings(spec, setup));
     WEFT_CHECK_OK(choose_format(spec, setup));
     WEFT_CHECK_OK(check_existing(spec, setup, folders));
+    if (spec.stage != JobStage::kEncode && !setup.plan.frames.empty()) {
+        WEFT_TRY(warnings, check_motion(*setup.shot));
+        setup.result.warnings.insert(setup.result.warnings.end(), warnings.begin(), warnings.end());
+    }
     return setup;
 }
 

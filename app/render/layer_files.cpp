@@ -26,6 +26,20 @@ ExrLayer patch_layer(const FrameLayers& layers) {
     return out;
 }
 
+// With the coverage in blue, by which Blender's Map UV multiplies.
+ExrLayer st_layer(const FrameLayers& layers) {
+    ExrLayer out{{"st.R", "st.G", "st.B"}, true, {}};
+    const std::size_t pixels = layers.alpha.size_bytes() / sizeof(float);
+    out.samples.reserve(3 * pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const float* st = layers.st.data() + 2 * i;
+        const bool known = st[0] != 0 || st[1] != 0;
+        out.samples.insert(out.samples.end(),
+                           {st[0], st[1], known ? layers.alpha.data()[i] : 0.0f});
+    }
+    return out;
+}
+
 }  // namespace
 
 std::vector<ExrLayer> exr_layers(const FrameLayers& layers, const std::vector<LayerKind>& kinds) {
@@ -49,7 +63,7 @@ std::vector<ExrLayer> exr_layers(const FrameLayers& layers, const std::vector<La
                 out.push_back(layer_of(name, {"R", "G", "B"}, layers.gloss));
                 break;
             case LayerKind::kSt:
-                out.push_back(layer_of(name, {"R", "G"}, layers.st, true));
+                out.push_back(st_layer(layers));
                 break;
             case LayerKind::kMatte:
                 out.push_back(layer_of(name, {"A"}, layers.alpha));

@@ -27,15 +27,17 @@ Status check_st_maps(const std::string& pattern, const ShotPlan& plan) {
 Status write_st_maps(const std::string& path, const StMaps& maps, WriteOptions write) {
     const Size size = maps.warp.visible.size();
     ImageF3 picture(size);
-    ExrLayer back{{"stabilize.R", "stabilize.G", "stabilize.A"}, true, {}};
-    back.samples.reserve(3 * static_cast<std::size_t>(size.width) *
+    ExrLayer back{{"stabilize.R", "stabilize.G", "stabilize.B", "stabilize.A"}, true, {}};
+    back.samples.reserve(4 * static_cast<std::size_t>(size.width) *
                          static_cast<std::size_t>(size.height));
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
             const float *warp = maps.warp.st.pixel(x, y), *st = maps.stabilize.st.pixel(x, y);
-            std::copy(warp, warp + 2, picture.pixel(x, y));
-            back.samples.insert(back.samples.end(),
-                                {st[0], st[1], maps.stabilize.visible.at(x, y)});
+            const float shown = maps.stabilize.visible.at(x, y);
+            float* to = picture.pixel(x, y);
+            std::copy(warp, warp + 2, to);
+            to[2] = maps.warp.visible.at(x, y);  // Blender's Map UV multiplies by blue
+            back.samples.insert(back.samples.end(), {st[0], st[1], shown, shown});
         }
     }
     ExrFrame frame;

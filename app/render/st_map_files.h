@@ -11,8 +11,8 @@ namespace weft {
 /// locked mode, or if the name does not end in .exr.
 [[nodiscard]] Status check_st_maps(const std::string& pattern, const ShotPlan& plan);
 
-/// Writes an EXR of 32 bit floats without loss: R, G, A of the map `warp` and stabilize.R, .G, .A
-/// (docs/FORMATS.md). `write` gives metadata and rule. Errors: as write_exr().
+/// Writes an EXR of 32 bit floats without loss: R, G, B, A of the map `warp` and stabilize.R, .G,
+/// .B, .A (docs/FORMATS.md). `write` gives metadata and rule. Errors: as write_exr().
 [[nodiscard]] Status write_st_maps(const std::string& path, const StMaps& maps, WriteOptions write);
 
 }  // namespace weft

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "engine/core/setting.h"
+#include "engine/core/text.h"
+#include "engine/form/camera_rotation.h"
 #include "engine/form/depth_positions.h"
 #include "engine/media/form_passes.h"
 
@@ -27,6 +29,19 @@ Expected<ViewCamera> view_camera(const FormParams& form, const HeaderCamera& hea
                         by({{setting::kFov}}) + ".");
     }
     return camera_with(*fov_deg, plate);
+}
+
+// How the camera is turned, from the position pass of the same render.
+std::optional<std::array<double, 9>> rotation_by_places(const FormParams& form,
+                                                        const std::string& path, Size plate,
+                                                        const ViewCamera& camera) {
+    const auto normals = locate_normals(path, form.normal_layer);
+    if (!normals) return std::nullopt;
+    const auto pass = locate_positions(path, {}, {normals->layer.name});
+    // A file with nothing but the normals is no position pass.
+    if (!pass || pass->layer.name == normals->layer.name) return std::nullopt;
+    const auto places = read_positions(path, pass->layer.name, plate);
+    return places ? camera_rotation(*places, camera) : std::nullopt;
 }
 
 // Whether a shape or a plane's strokes are drawn.
@@ -71,7 +86,7 @@ void add_form_settings(Hasher& hasher, const Region& region) {
     const FormParams& form = region.form;
     const FormFiles files = form_files(region);
     hasher.value(static_cast<int>(files.from)).text(files.pattern).text(files.what);
-    hasher.text(form.position_layer).text(form.normal_layer);
+    hasher.text(form.position_layer).text(form.normal_layer).text(region.finish.depth_layer);
     hasher.value(static_cast<int>(form.normal_space)).value(static_cast<int>(form.depth_kind));
     hasher.value(form.fov_deg.value_or(0));
     if (files.from == RegionPlan::FormFrom::kOutline) hasher.value(form.roundness);
@@ -88,9 +103,20 @@ void add_form_settings(Hasher& hasher, const Region& region) {
 Expected<ImageF3> read_form_places(const Region& region, const std::string& path, Size plate) {
     const FormParams& form = region.form;
     if (form.source != FormSource::kDepth) return read_positions(path, form.position_layer, plate);
-    WEFT_TRY(depth, read_depth(path, plate));
+    WEFT_TRY(depth, read_depth(path, region.finish.depth_layer, plate));
     WEFT_TRY(camera, view_camera(form, header_of(path), path, plate));
     return positions_from_depth(depth, form.depth_kind, camera);
+}
+
+NormalAxes axes_of_normals(const FormParams& form, const std::string& path) {
+    if (form.normal_space == NormalSpace::kCamera) return NormalAxes::kCamera;
+    if (form.normal_space == NormalSpace::kWorld) return NormalAxes::kWorld;
+    const auto pass = locate_normals(path, form.normal_layer);
+    const std::string layer = pass ? lower_case(pass->layer.name) : std::string();
+    if (layer.find("camera") != std::string::npos) return NormalAxes::kCamera;
+    if (layer.find("world") != std::string::npos || header_of(path).by_blender)
+        return NormalAxes::kWorld;
+    return NormalAxes::kPresumedCamera;
 }
 
 Expected<NormalPass> read_form_normals(const Region& region, const std::string& path, Size plate) {
@@ -98,17 +124,18 @@ Expected<NormalPass> read_form_normals(const Region& region, const std::string& 
     WEFT_TRY(normals, read_normals(path, form.normal_layer, plate));
     const HeaderCamera header = header_of(path);
     WEFT_TRY(camera, view_camera(form, header, path, plate));
-    if (form.normal_space == NormalSpace::kCamera)
+    if (axes_of_normals(form, path) != NormalAxes::kWorld)
         return NormalPass{std::move(normals), camera, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-    if (!header.camera_from_world) {
-        return fail(ErrorCode::kUnreadable,
-                    path +
-                        " has no worldToCamera in its header, which normals in the world's axes "
-                        "need. Render them in the camera's axes" +
-                        by({{setting::kNormalSpace, "camera"}}) + ", or a position pass" +
-                        by({{setting::kPositionPass}}) + ".");
-    }
-    return NormalPass{std::move(normals), camera, *header.camera_from_world};
+    const auto turned = header.camera_from_world ? header.camera_from_world
+                                                 : rotation_by_places(form, path, plate, camera);
+    if (turned) return NormalPass{std::move(normals), camera, *turned};
+    return fail(ErrorCode::kUnreadable,
+                "The normals of " + path +
+                    " are in the world's axes, and neither worldToCamera in its header nor a "
+                    "position pass in the same file that fits the field of view" +
+                    by({{setting::kFov}}) + " tells the camera's. Give the position pass instead" +
+                    by({{setting::kPositionPass}}) + ", or normals in the camera's axes" +
+                    by({{setting::kNormalSpace, "camera"}}) + ".");
 }
 
 }  // namespace weft

@@ -27,8 +27,18 @@ void add_form_settings(Hasher& hasher, const Region& region);
 /// reading; Unreadable if a depth pass comes without a field of view.
 [[nodiscard]] Expected<ImageF3> read_form_places(const Region& region, const std::string& path,
                                                  Size plate);
+/// The axes of a normal pass.
+enum class NormalAxes {
+    kCamera,
+    kPresumedCamera,  ///< Nothing tells.
+    kWorld
+};
+/// As set; else as the layer's name and the renderer tell.
+[[nodiscard]] NormalAxes axes_of_normals(const FormParams& form, const std::string& path);
+
 /// The normals that one file of the pass shows. Errors: those of reading; Unreadable if there is no
-/// field of view, or if they are in the world's axes and the header does not tell the camera's.
+/// field of view, or if they are in the world's axes and neither the header nor a position pass in
+/// the same file tells the camera's.
 [[nodiscard]] Expected<NormalPass> read_form_normals(const Region& region, const std::string& path,
                                                      Size plate);
 

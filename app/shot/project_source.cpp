@@ -9,6 +9,7 @@
 #include "engine/core/text.h"
 #include "engine/media/form_passes.h"
 #include "engine/media/image_files.h"
+#include "engine/media/light_passes.h"
 #include "engine/media/sequence_pattern.h"
 
 namespace weft {
@@ -97,17 +98,21 @@ class ProjectSource final : public ShotSource {
     }
 
     [[nodiscard]] Expected<ImageF1> depth(int region, int frame) const override {
-        const std::string& files = at(region).finish.depth;
+        const FinishParams& finish = at(region).finish;
+        const std::string& files = finish.depth;
         if (files.empty()) return ImageF1();
         if (lower_case(std::filesystem::path(files).extension().string()) == ".exr") {
             // The picture comes first in a renderer's file; the depth has a channel of its own.
             WEFT_TRY(pattern, SequencePattern::parse(files));
-            WEFT_TRY(near, read_depth(watched(path_on(pattern, frame)), size()));
+            WEFT_TRY(near,
+                     read_depth(watched(path_on(pattern, frame)), finish.depth_layer, size()));
             std::transform(near.data(), near.data() + near.size_bytes() / sizeof(float),
                            near.data(), [](float v) { return v > 0 ? 1.0f / v : 0.0f; });
             return near;
         }
-        WEFT_TRY(picture, read_pass(files, frame));
+        const std::string path = pass_on(files, frame);
+        WEFT_TRY(picture, read_image(path));
+        WEFT_CHECK_OK(check_size(path, picture));
         // A float file holds distances; an integer file holds a depth map made for viewing.
         const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
         ImageF1 out(picture.rgb.size());
@@ -145,8 +150,11 @@ class ProjectSource final : public ShotSource {
 
     [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
         const LightParams& light = at(region).light;
-        const std::string& given = light.lighting.empty() ? light.albedo : light.lighting;
-        WEFT_TRY(picture, read_pass(given, frame, light.pass_layer));
+        const bool albedo = light.lighting.empty();
+        const std::string path = pass_on(albedo ? light.albedo : light.lighting, frame);
+        WEFT_TRY(picture, read_light_pass(path, albedo ? LightPass::kAlbedo : LightPass::kLighting,
+                                          light.pass_layer));
+        WEFT_CHECK_OK(check_size(path, picture));
         const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
         WEFT_TRY(to_linear, make_color_transform({coded ? "srgb" : "linear"}, {"linear"}));
         to_linear->apply(picture.rgb);
@@ -157,19 +165,17 @@ class ProjectSource final : public ShotSource {
     [[nodiscard]] const Region& at(int region) const {
         return *regions_[static_cast<std::size_t>(region)];
     }
-    // Reads a pass of the plate's size: one image per frame, or one for all.
-    [[nodiscard]] Expected<PlateFrame> read_pass(const std::string& files, int frame,
-                                                 const std::string& layer = {}) const {
-        WEFT_TRY(pattern, SequencePattern::parse(files));
-        const std::string path = pattern.is_single() ? files : path_on(pattern, frame);
-        WEFT_TRY(picture, read_image(watched(path), layer));
-        if (picture.rgb.size() != size()) {
-            return fail(ErrorCode::kUnreadable,
-                        path + " is " + std::to_string(picture.rgb.width()) + " x " +
-                            std::to_string(picture.rgb.height()) +
-                            ", but the plate is not. Give a pass of the plate's size.");
-        }
-        return picture;
+    // The file of a pass: one per frame, or one for all.
+    [[nodiscard]] std::string pass_on(const std::string& files, int frame) const {
+        const auto pattern = SequencePattern::parse(files);
+        return watched(pattern && !pattern->is_single() ? path_on(*pattern, frame) : files);
+    }
+    [[nodiscard]] Status check_size(const std::string& path, const PlateFrame& picture) const {
+        if (picture.rgb.size() == size()) return {};
+        return fail(ErrorCode::kUnreadable,
+                    path + " is " + std::to_string(picture.rgb.width()) + " x " +
+                        std::to_string(picture.rgb.height()) +
+                        ", but the plate is not. Give a pass of the plate's size.");
     }
     [[nodiscard]] Expected<Matte> read(const MatteSource& source, int frame) const {
         if (!source.shape.empty()) {

@@ -6,14 +6,13 @@
 #include "app/exchange/crypto_files.h"
 #include "app/exchange/track_file.h"
 #include "app/shot/frame_plan.h"
-#include "app/shot/matte_channel.h"
 #include "app/shot/missing_frames.h"
 #include "app/shot/project_source.h"
 #include "app/shot/region_projection.h"
+#include "app/shot/settled_region.h"
 #include "app/shot/shot_inputs.h"
 #include "app/shot/shown_sample.h"
 #include "app/shot/texture_file.h"
-#include "app/shot/trimmed_frames.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/hash.h"
 #include "engine/core/luma.h"
@@ -160,17 +159,11 @@ class ShotOpener {
         std::vector<Leaf<Region>> planned;
         for (std::size_t k = 0; k < shot_.project.regions.size(); ++k) {
             if (!shot_.project.regions[k]->enabled) continue;
-            Status frozen;
-            shot_.project.regions[k] = shot_.project.regions[k].with([&](Region& changed) {
-                frozen = name_crypto_files(changed, shot_.project.plate.path);
-                if (frozen) frozen = add_frozen_mattes(changed);
-                choose_matte_channels(changed, shot_.plate->frames());
-                if (std::string trimmed = leave_out_trimmed(changed, *shot_.plate);
-                    !trimmed.empty())
-                    shot_.warnings.push_back(std::move(trimmed));
-            });
+            Status settled;
+            shot_.project.regions[k] = shot_.project.regions[k].with(
+                [&](Region& changed) { settled = settle_region(changed, shot_); });
             const Region& region = *shot_.project.regions[k];
-            auto added = frozen ? add_region(region) : std::move(frozen);
+            auto added = settled ? add_region(region) : std::move(settled);
             if (!added) return fail_in(std::move(added).error(), "Region '" + region.name + "'");
             shot_.region_index.push_back(k);
             planned.push_back(shot_.project.regions[k]);

@@ -19,22 +19,24 @@ inline constexpr std::string_view
     kFeather = "synthesis.feather_px", kFrames = "settings.frames",
     kHighlights = "light.highlights", kHoldout = "holdouts", kLamps = "light.lamps",
     kLayers = "output.layers", kLayersOutput = "output.layers_path", kLibrary = "run.library",
-    kLightExact = "light.exact", kLighting = "light.lighting", kLightSource = "light.source",
-    kMatte = "matte", kMatteChannel = "matte.channel", kMatteFrozenFiles = "matte.frozen_files",
-    kMatteInvert = "matte.invert", kMatteValue = "matte.value", kMemory = "run.memory",
-    kMotion = "motion.files", kMotionLayer = "motion.layer", kMovieStart = "plate.movie_start",
-    kOutput = "output.path", kOutputRoot = "run.output_root", kOverlap = "synthesis.overlap_px",
+    kLightExact = "light.exact", kLightLayer = "light.pass_layer", kLighting = "light.lighting",
+    kLightSource = "light.source", kMatte = "matte", kMatteChannel = "matte.channel",
+    kMatteFrozenFiles = "matte.frozen_files", kMatteInvert = "matte.invert",
+    kMatteValue = "matte.value", kMemory = "run.memory", kMotion = "motion.files",
+    kMotionConvention = "motion.convention", kMotionDirection = "motion.direction",
+    kMotionLayer = "motion.layer", kMovieStart = "plate.movie_start", kOutput = "output.path",
+    kOutputRoot = "run.output_root", kOverlap = "synthesis.overlap_px",
     kOverwrite = "run.overwrite", kPackages = "library.packages", kPlane = "texture.plane",
     kPlate = "plate.path", kPlateLayer = "plate.layer", kPlateSpace = "plate.space",
-    kDepth = "finish.depth", kFormShape = "form.shape", kFormSource = "form.source",
-    kFormStrokes = "form.strokes", kFov = "form.fov_deg", kNormalLayer = "form.normal_layer",
-    kNormalSpace = "form.normal_space", kPositionLayer = "form.position_layer",
-    kPositionPass = "form.position", kRecipe = "run.recipe", kReferenceFrame = "reference_frames",
-    kRegion = "look.region", kRestart = "run.restart", kResume = "run.resume",
-    kSample = "texture.sample", kSkipExisting = "run.skip_existing",
+    kDepth = "finish.depth", kDepthLayer = "finish.depth_layer", kFormShape = "form.shape",
+    kFormSource = "form.source", kFormStrokes = "form.strokes", kFov = "form.fov_deg",
+    kNormalLayer = "form.normal_layer", kNormalSpace = "form.normal_space",
+    kPositionLayer = "form.position_layer", kPositionPass = "form.position", kRecipe = "run.recipe",
+    kReferenceFrame = "reference_frames", kRegion = "look.region", kRestart = "run.restart",
+    kResume = "run.resume", kSample = "texture.sample", kSkipExisting = "run.skip_existing",
     kTemporalMode = "temporal.mode", kTextureSpace = "color.texture_space", kTrack = "motion.track",
-    kTrustOnce = "run.trust", kTruth = "measure.truth", kVersionUp = "run.version_up",
-    kWarp = "placement.warp", kZone = "zones";
+    kTrustOnce = "run.trust", kTruth = "measure.truth", kUvLayer = "placement.uv_layer",
+    kVersionUp = "run.version_up", kWarp = "placement.warp", kZone = "zones";
 // Commands.
 inline constexpr std::string_view kAddRegion = "command.add_region",
                                   kBuildLibrary = "command.build_library",
@@ -58,7 +60,8 @@ inline constexpr std::array kAll{
     kResume,           kSample,        kSkipExisting, kTemporalMode,   kTextureSpace, kTrack,
     kTrustOnce,        kTruth,         kVersionUp,    kZone,           kAddRegion,    kBuildLibrary,
     kImportTextures,   kListTextures,  kListTrusted,  kSaveLook,       kTrainLibrary, kTrustFolder,
-    kUseModel,         kVerifyLibrary, kWarp};
+    kMotionDirection,  kVerifyLibrary, kWarp,         kDepthLayer,     kLightLayer,   kUvLayer,
+    kMotionConvention, kUseModel};
 }  // namespace setting
 
 /// A setting and, where it should get one, its value: {"reference_frames", "1012"}.

@@ -61,6 +61,10 @@ Expected<HeaderCamera> read_camera(const std::string& path) {
     for (const char* name : {"worldToCamera", "worldtocamera"})
         if (const auto m = matrix(spec, name); m && !out.camera_from_world)
             out.camera_from_world = camera_from_world(*m);
+    for (const OIIO::ParamValue& entry : spec.extra_attribs) {
+        const std::string name(entry.name().string());
+        out.by_blender |= name == "BlenderMultiChannel" || name.starts_with("cycles.");
+    }
     return out;
 }
 

@@ -95,8 +95,10 @@ std::optional<ChannelChoice> named_in(const PartNames& part, int number,
     const std::string prefix = request.layer + ".";
     if (auto choice = rgb_of(part, number, prefix)) return choice;
     if (auto choice = grey_of(part, number, prefix, true)) return choice;
-    // A part of a multi-part file may have the layer's name itself.
-    if (lower_case(part.name) != lower_case(request.layer)) return std::nullopt;
+    // A part of a multi-part file may have the layer's name itself, and Nuke calls the channels
+    // without a layer rgba.
+    const std::string layer = lower_case(request.layer);
+    if (lower_case(part.name) != layer && layer != "rgba") return std::nullopt;
     if (auto choice = rgb_of(part, number, "")) return choice;
     return grey_of(part, number, "", true);
 }
@@ -173,6 +175,14 @@ Error nothing_chosen(const std::string& path, const std::vector<PartNames>& part
         return unreadable(path, "it has no channel '" + request.channel + "'",
                           "Its channels are: " + channels + ".");
     }
+    const bool cut = std::any_of(parts.begin(), parts.end(), [](const PartNames& part) {
+        return std::any_of(part.channels.begin(), part.channels.end(), is_cut_name);
+    });
+    if (cut) {
+        return unreadable(path,
+                          "channels of its picture are missing; its channels are: " + channels,
+                          kShorterNames);
+    }
     const bool deep =
         std::any_of(parts.begin(), parts.end(), [](const PartNames& part) { return part.deep; });
     if (deep) {
@@ -205,7 +215,8 @@ Expected<ChannelChoice> choose_channels(const std::string& path,
     std::optional<ChannelChoice> choice;
     if (!request.layer.empty() || !request.channel.empty()) {
         for (std::size_t k = 0; k < parts.size() && !choice; ++k)
-            if (!parts[k].deep) choice = named_in(parts[k], static_cast<int>(k), request);
+            if (!parts[k].deep && (request.part < 0 || request.part == static_cast<int>(k)))
+                choice = named_in(parts[k], static_cast<int>(k), request);
     } else if (exr) {
         choice = evident(parts);
     } else {

@@ -200,6 +200,42 @@ Status check_cryptomatte_names(const std::vector<std::string>& paths, std::strin
     return tl::unexpected(std::move(*first));
 }
 
+std::string cryptomatte_layer(const std::string& path, std::string_view names) {
+    const auto layer = guarded(path, [&]() -> Expected<std::string> {
+        WEFT_TRY(file, CryptoFile::open(path));
+        const auto found = find_listed(file.layers(), split_crypto_names(names).front());
+        return found ? found->layer->name : std::string();
+    });
+    return layer.value_or(std::string());
+}
+
+std::string cryptomatte_names_beside(const std::string& path, std::string_view names,
+                                     std::string_view beside) {
+    const auto render_of = [](std::string_view layer) {
+        return layer.substr(0, layer.rfind('.') + 1);
+    };
+    const auto rewritten = guarded(path, [&]() -> Expected<std::string> {
+        WEFT_TRY(file, CryptoFile::open(path));
+        std::vector<CryptoLayer> same;
+        for (const CryptoLayer& layer : file.layers())
+            if (render_of(layer.name) == render_of(beside)) same.push_back(layer);
+        std::string out;
+        bool changed = false;
+        for (const std::string& name : split_crypto_names(names)) {
+            const auto there = find_listed(same, name);
+            const bool first =
+                there && find_listed(file.layers(), name)->layer->name == there->layer->name;
+            const bool named = !split_layer(file.layers(), name).first.empty();
+            const bool prefixed = there && !first && !named;
+            changed |= prefixed;
+            if (!out.empty()) out += ", ";
+            out += escaped_crypto_name(prefixed ? there->layer->name + "/" + name : name);
+        }
+        return changed ? out : std::string(names);
+    });
+    return rewritten.value_or(std::string(names));
+}
+
 Expected<Matte> read_cryptomatte(const std::string& path, std::string_view names, Size expected) {
     return guarded(path, [&]() -> Expected<Matte> {
         WEFT_TRY(file, CryptoFile::open(path));

@@ -39,6 +39,15 @@ struct CryptoObject {
 [[nodiscard]] Status check_cryptomatte_names(const std::vector<std::string>& paths,
                                              std::string_view names);
 
+/// The layer whose manifest in this file lists the first of `names` (as above); empty: none.
+[[nodiscard]] std::string cryptomatte_layer(const std::string& path, std::string_view names);
+
+/// `names` (as above), each that is listed in several layers of this file with the layer that
+/// stands beside `beside`, as the plate's "shot.Combined" and "shot.CryptoObject" do. Unchanged if
+/// there is none, and if the file cannot be read.
+[[nodiscard]] std::string cryptomatte_names_beside(const std::string& path, std::string_view names,
+                                                   std::string_view beside);
+
 /// The object with the most coverage at pixel (x, y) of the display window, in the first layer; an
 /// empty name if there is none. Errors: as list_cryptomatte(); Usage outside the picture.
 [[nodiscard]] Expected<CryptoObject> pick_cryptomatte(const std::string& path, int x, int y);

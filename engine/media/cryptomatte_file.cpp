@@ -24,19 +24,31 @@ int channel_named(const OIIO::ImageSpec& spec, const std::string& name) {
 
 std::vector<std::array<int, 2>> ranks_of(const OIIO::ImageSpec& spec, const std::string& layer) {
     std::vector<std::array<int, 2>> ranks;
-    for (int k = 0; k < 64; ++k) {
-        const std::string stem = layer + (k < 10 ? "0" : "") + std::to_string(k) + ".";
+    const auto add = [&](const std::string& stem) {
         const auto channel = [&](const char* shortly, const char* at_length) {
             const int c = channel_named(spec, stem + shortly);
             return c >= 0 ? c : channel_named(spec, stem + at_length);
         };
         const std::array<int, 4> rgba{channel("R", "red"), channel("G", "green"),
                                       channel("B", "blue"), channel("A", "alpha")};
-        if (rgba[0] < 0 || rgba[1] < 0) return ranks;
+        if (rgba[0] < 0 || rgba[1] < 0) return false;
         ranks.push_back({rgba[0], rgba[1]});
         if (rgba[2] >= 0 && rgba[3] >= 0) ranks.push_back({rgba[2], rgba[3]});
-    }
+        return true;
+    };
+    for (int k = 0; k < 64; ++k)
+        if (!add(layer + (k < 10 ? "0" : "") + std::to_string(k) + ".")) break;
+    // Blender's File Output node calls it by its slot, whose name need not end in a number.
+    if (ranks.empty()) add(layer + ".");
     return ranks;
+}
+
+// Blender cuts the names of channels: a view layer of 48 characters leaves one channel of four.
+bool has_cut_names(OIIO::ImageInput& input) {
+    for (int k = 0; input.seek_subimage(k, 0); ++k)
+        for (const std::string& name : input.spec().channelnames)
+            if (is_cut_name(name)) return true;
+    return false;
 }
 
 // A feature film's set has some hundred thousand names.
@@ -134,6 +146,11 @@ Expected<CryptoFile> CryptoFile::open(const std::string& path) {
     for (int k = 0; file.input_->seek_subimage(k, 0); ++k)
         add_layers(file.input_->spec(), k, path, file.layers_);
     static_cast<void>(file.input_->geterror());
+    if (file.layers_.empty() && has_cut_names(*file.input_)) {
+        static_cast<void>(file.input_->geterror());
+        return tl::unexpected(
+            unreadable(path, "channels of its Cryptomatte are missing", kShorterNames));
+    }
     if (file.layers_.empty()) {
         return tl::unexpected(
             unreadable(path, "it has no Cryptomatte",

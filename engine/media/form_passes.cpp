@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/setting.h"
 #include "engine/media/image_files.h"
-#include "engine/media/pass_channels.h"
+#include "engine/media/pass_layers.h"
 #include "engine/media/picture_file.h"
 #include "engine/media/raster.h"
 #include "engine/media/raster_errors.h"
@@ -18,22 +17,20 @@
 namespace weft {
 namespace {
 
-using Names = std::array<std::string, 3>;
+// The background of Cycles and Arnold; no coordinate is so large.
+constexpr float kNowhere = 1e10f;
 
-// A pass of three numbers by pixel.
-struct VectorPass {
-    const char* name;
-    // In Cycles, Arnold, Nuke; after the last dot or at the beginning of a layer's name.
-    std::span<const char* const> layers;
-    std::string_view layer_setting;
-};
-constexpr std::array kPlaceLayers{"Position", "position", "P",
-                                  "P_World",  "Pworld",   "worldposition"};
-constexpr std::array kNormalLayers{"Normal",  "normal",       "N", "normals", "Normals",
-                                   "nCamera", "normal_camera"};
-constexpr VectorPass kPlaces{"position", kPlaceLayers, setting::kPositionLayer};
-constexpr VectorPass kNormals{"normal", kNormalLayers, setting::kNormalLayer};
-const std::array<Names, 3> kAxes{{{"X", "Y", "Z"}, {"R", "G", "B"}, {"x", "y", "z"}}};
+// Names in Cycles, Arnold, Nuke.
+const PassKind kPlaces{"position",
+                       {"Position", "P", "P_World", "Pworld", "worldposition"},
+                       {{"X", "Y", "Z"}, {"R", "G", "B"}, {"x", "y", "z"}},
+                       setting::kPositionLayer};
+const PassKind kNormals{"normal",
+                        {"Normal", "N", "normals", "nCamera", "normal_camera"},
+                        {{"X", "Y", "Z"}, {"R", "G", "B"}, {"x", "y", "z"}},
+                        setting::kNormalLayer};
+const PassKind kDepth{
+    "depth", {"Depth", "Z", "zdepth"}, {{"Z"}, {"V"}, {"z"}, {"R"}, {"Y"}}, setting::kDepthLayer};
 
 // An unreadable file is none; reading it says why.
 bool is_exr(const std::string& path) {
@@ -41,108 +38,95 @@ bool is_exr(const std::string& path) {
     return input && std::string_view((*input)->format_name()) == "openexr";
 }
 
-bool is_layer(std::string_view layer, std::string_view wanted) {
-    if (!layer.ends_with(wanted)) return false;
-    return layer.size() == wanted.size() || layer[layer.size() - wanted.size() - 1] == '.';
+Expected<FoundPass> locate(const std::string& path, const PassKind& kind, const std::string& layer,
+                           const std::vector<std::string>& beside) {
+    WEFT_CHECK_OK(check_picture_exists(path));
+    WEFT_TRY(layers, list_pass_layers(path));
+    auto found = find_pass(layers, kind, layer, beside);
+    if (!found && layer.empty()) found = find_pass_alone(layers, kind);
+    if (!found) return tl::unexpected(no_such_pass(path, kind, layer, layers));
+    return std::move(*found);
 }
 
-// The three channels of a layer, if it has them.
-std::optional<Names> channels_of(const std::vector<std::string>& all, const std::string& layer) {
-    const auto has = [&](const std::string& name) {
-        return std::find(all.begin(), all.end(), name) != all.end();
-    };
-    const std::string prefix = layer.empty() ? "" : layer + ".";
-    for (const Names& axes : kAxes) {
-        Names names{prefix + axes[0], prefix + axes[1], prefix + axes[2]};
-        if (has(names[0]) && has(names[1]) && has(names[2])) return names;
-    }
-    return std::nullopt;
-}
-
-std::optional<Names> find_channels(const std::vector<std::string>& all, const VectorPass& pass,
-                                   const std::string& layer) {
-    if (!layer.empty()) return channels_of(all, layer);
-    for (const char* wanted : pass.layers) {
-        for (const std::string& name : all) {
-            const std::size_t dot = name.rfind('.');
-            if (dot == std::string::npos || !is_layer(name.substr(0, dot), wanted)) continue;
-            if (auto found = channels_of(all, name.substr(0, dot))) return found;
-        }
-    }
-    // A file of its own.
-    return all.size() <= 4 ? channels_of(all, "") : std::nullopt;
-}
-
-Expected<ImageF3> read_vectors(const std::string& path, const VectorPass& pass,
+Expected<ImageF3> read_vectors(const std::string& path, const PassKind& kind,
                                const std::string& layer, Size expected) {
-    WEFT_TRY(all, exr_channels(path));
-    const std::string name = pass.name;
-    const auto names = find_channels(all, pass, layer);
-    if (!names) {
-        return tl::unexpected(unreadable(path, "it has no " + name + " pass",
-                                         "Name its layer" + by({{pass.layer_setting}}) +
-                                             "; its channels are: " + list_of(all) + "."));
-    }
-    ImageF3 out;
-    for (std::size_t c = 0; c < 3; ++c) {
-        Size size;
-        WEFT_TRY(values, read_pass_channel(path, (*names)[c], name, size));
-        WEFT_CHECK_OK(
-            check_plate_size(path, "its " + name + " pass", size, expected, kRenderAlike));
-        if (out.empty()) out = ImageF3(size);
-        for (std::size_t i = 0; i < values.size(); ++i)
-            out.data()[3 * i + c] = values[i];
-    }
+    WEFT_TRY(found, locate(path, kind, layer, {}));
+    Size size;
+    WEFT_TRY(axes, read_pass(path, kind, found, expected, size));
+    ImageF3 out(size);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < axes[c].size(); ++i)
+            out.data()[3 * i + c] = axes[c][i];
     return out;
 }
 
-// The channel of a depth pass: by its name, or the first of a file of its own.
-std::optional<std::string> depth_channel(const std::vector<std::string>& all) {
-    for (const std::string& name : all) {
-        const std::size_t dot = name.rfind('.');
-        const std::string_view last(name.data() + (dot == std::string::npos ? 0 : dot + 1));
-        const std::string layer = dot == std::string::npos ? "" : name.substr(0, dot);
-        const bool of_depth = layer.empty() || is_layer(layer, "Depth") || is_layer(layer, "depth");
-        if ((last == "Z" && of_depth) || (last == "V" && is_layer(layer, "Depth"))) return name;
+// Where a depth pass has no layer of its own: a channel Z beside the picture, or the first channel
+// of a file of its own.
+std::optional<FoundPass> find_depth_beside(const std::vector<PassLayer>& layers) {
+    for (const PassLayer& layer : layers) {
+        const bool vectors = layer.has({"X", "Y", "Z"});
+        if (!layer.prefixed && !vectors && layer.has({"Z"}))
+            return FoundPass{layer, {layer.channel("Z")}, {}};
     }
-    if (all.empty() || all.size() > 4) return std::nullopt;
-    const auto red = std::find(all.begin(), all.end(), "R");
-    return red == all.end() ? all.front() : *red;
+    if (auto found = find_pass_alone(layers, kDepth)) return found;
+    PassKind first = kDepth;
+    if (layers.size() == 1) first.channels = {{layers.front().channels.front()}};
+    return find_pass_alone(layers, first);
 }
 
 }  // namespace
 
-Expected<ImageF3> read_positions(const std::string& path, const std::string& layer, Size expected) {
+Expected<FoundPass> locate_positions(const std::string& path, const std::string& layer,
+                                     const std::vector<std::string>& beside) {
+    return locate(path, kPlaces, layer, beside);
+}
+
+Expected<FoundPass> locate_normals(const std::string& path, const std::string& layer,
+                                   const std::vector<std::string>& beside) {
+    return locate(path, kNormals, layer, beside);
+}
+
+Expected<FoundPass> locate_depth(const std::string& path, const std::string& layer,
+                                 const std::vector<std::string>& beside) {
     WEFT_CHECK_OK(check_picture_exists(path));
+    WEFT_TRY(layers, list_pass_layers(path));
+    auto found = find_pass(layers, kDepth, layer, beside);
+    if (!found && layer.empty()) found = find_depth_beside(layers);
+    if (!found) return tl::unexpected(no_such_pass(path, kDepth, layer, layers));
+    return std::move(*found);
+}
+
+Expected<ImageF3> read_positions(const std::string& path, const std::string& layer, Size expected) {
     WEFT_TRY(out, read_vectors(path, kPlaces, layer, expected));
-    constexpr float kNowhere = 1e10f;  // Cycles' and Arnold's background
-    std::transform(out.data(), out.data() + out.size_bytes() / sizeof(float), out.data(),
-                   [](float v) {
-                       return std::abs(v) < kNowhere ? v : std::numeric_limits<float>::quiet_NaN();
-                   });
+    constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+    const std::size_t count = out.size_bytes() / sizeof(float);
+    for (std::size_t i = 0; i < count; i += 3) {
+        float* place = out.data() + i;
+        // Cycles' background, and what is beside its render region.
+        if (place[0] == 0.0f && place[1] == 0.0f && place[2] == 0.0f)
+            std::fill(place, place + 3, kUnknown);
+        for (std::size_t c = 0; c < 3; ++c)
+            if (!(std::abs(place[c]) < kNowhere)) place[c] = kUnknown;
+    }
     return out;
 }
 
 Expected<ImageF2> read_st_layer(const std::string& path, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
-    WEFT_TRY(all, exr_channels(path));
-    ImageF2 out;
-    for (std::size_t c = 0; c < 2; ++c) {
-        const std::string name = c == 0 ? "st.R" : "st.G";
-        if (std::find(all.begin(), all.end(), name) == all.end()) {
-            return tl::unexpected(unreadable(path, "it has no layer st",
-                                             "Render with that layer" +
-                                                 by({{setting::kLayers, "st"}}) +
-                                                 "; its channels are: " + list_of(all) + "."));
-        }
-        Size size;
-        WEFT_TRY(values, read_pass_channel(path, name, "st", size));
-        WEFT_CHECK_OK(check_plate_size(path, "its layer st", size, expected,
-                                       "give the layers of a render of this plate"));
-        if (out.empty()) out = ImageF2(size);
-        for (std::size_t i = 0; i < values.size(); ++i)
-            out.data()[2 * i + c] = values[i];
+    WEFT_TRY(layers, list_pass_layers(path));
+    const PassKind kind{"st", {"st"}, {{"R", "G"}}, {}};
+    const auto found = find_pass(layers, kind, {});
+    if (!found || found->layer.name != "st") {
+        return tl::unexpected(unreadable(path, "it has no layer st",
+                                         "Render with that layer" + by({{setting::kLayers, "st"}}) +
+                                             "; its layers and channels are: " + list_of(layers) +
+                                             "."));
     }
+    Size size;
+    WEFT_TRY(st, read_pass(path, kind, *found, expected, size));
+    ImageF2 out(size);
+    for (std::size_t i = 0; i < st[0].size(); ++i)
+        out.data()[2 * i] = st[0][i], out.data()[2 * i + 1] = st[1][i];
     return out;
 }
 
@@ -162,25 +146,23 @@ Expected<ImageF3> read_normals(const std::string& path, const std::string& layer
     return std::move(out);
 }
 
-Expected<ImageF1> read_depth(const std::string& path, Size expected) {
+Expected<ImageF1> read_depth(const std::string& path, const std::string& layer, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
     if (!is_exr(path)) {
         return tl::unexpected(
             unreadable(path, "only an EXR of half or float holds distances, which a form needs",
                        "Render the depth pass as EXR, without normalising it."));
     }
-    WEFT_TRY(all, exr_channels(path));
-    const auto name = depth_channel(all);
-    if (!name) {
-        return tl::unexpected(
-            unreadable(path, "it has no depth pass",
-                       "Give an EXR with a channel Z; its channels are: " + list_of(all) + "."));
-    }
+    WEFT_TRY(found, locate_depth(path, layer));
     Size size;
-    WEFT_TRY(values, read_pass_channel(path, *name, "depth", size));
-    WEFT_CHECK_OK(check_plate_size(path, "its depth pass", size, expected, kRenderAlike));
+    WEFT_TRY(channels, read_pass(path, kDepth, found, expected, size));
     ImageF1 out(size);
-    std::copy(values.begin(), values.end(), out.data());
+    // Nothing is there: 1e10 of Cycles (1e11 beside its render region) and 1e30 of others, which a
+    // half can only hold as infinity or as its largest number.
+    constexpr float kLargestHalf = 65504;
+    std::transform(channels[0].begin(), channels[0].end(), out.data(), [](float v) {
+        return v < kNowhere && v != kLargestHalf ? v : std::numeric_limits<float>::infinity();
+    });
     return out;
 }
 

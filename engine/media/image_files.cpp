@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "engine/core/luma.h"
+#include "engine/core/setting.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/plate_decode.h"
 #include "engine/media/plates.h"
@@ -107,6 +109,30 @@ Matte coverage(const Raster& raster, Source source) {
     return matte;
 }
 
+// Renderers write ids as floats; Cycles does not filter them.
+bool has_whole_numbers(const Raster& raster, int channel) {
+    const auto* samples = std::get_if<std::vector<float>>(&raster.samples);
+    if (!samples) return true;
+    for (std::size_t at = static_cast<std::size_t>(channel); at < samples->size();
+         at += static_cast<std::size_t>(raster.channels))
+        if ((*samples)[at] != std::trunc((*samples)[at])) return false;  // NaN too
+    return true;
+}
+
+// The channel of ids beside a renderer's picture.
+void choose_id_channel(const std::string& path, RasterRequest& request) {
+    const PassKind kIds{"id",
+                        {"IndexOB", "IndexMA", "object_id", "objectid", "id"},
+                        {{"X"}, {"V"}, {"Y"}, {"R"}},
+                        {}};
+    const auto layers = list_pass_layers(path);
+    if (!layers || layers->size() < 2) return;
+    const auto found = find_pass(*layers, kIds, {});
+    if (!found) return;
+    request.channel = found->channels.front();
+    request.part = found->layer.part;
+}
+
 Matte equal_to(const Raster& raster, int channel, int value) {
     Matte matte(raster.info.size);
     const auto step = static_cast<std::size_t>(raster.channels);
@@ -115,7 +141,7 @@ Matte equal_to(const Raster& raster, int channel, int value) {
         [&](const auto& samples) {
             std::size_t at = static_cast<std::size_t>(channel);
             for (std::size_t i = 0; at < samples.size(); ++i, at += step) {
-                out[i] = static_cast<std::int64_t>(samples[at]) == value ? 255 : 0;
+                out[i] = static_cast<double>(samples[at]) == value ? 255 : 0;
             }
         },
         raster.samples);
@@ -175,6 +201,7 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
     RasterRequest request;
     request.raw_codes = select.value.has_value();
     if (!by_color) request.channel = select.channel;
+    if (select.value && select.channel.empty()) choose_id_channel(path, request);
     WEFT_TRY(raster, read_raster(path, request));
     WEFT_CHECK_OK(check_plate_size(path, "it", raster.info.size, expected, "scale or crop it"));
 
@@ -186,15 +213,17 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
     }
     Matte matte;
     if (select.value) {
-        if (std::holds_alternative<std::vector<float>>(raster.samples)) {
-            return fail(ErrorCode::kUsage,
-                        path +
-                            " has no integer ids (its samples are floating point), so no value "
-                            "can be picked. Leave the matte value out.");
-        }
         // Without a channel the ids are in the first one: luma would mix them, and an ID matte's
         // alpha only marks where there is any object.
-        matte = equal_to(raster, select.channel.empty() ? 0 : source.channel, *select.value);
+        const int ids = select.channel.empty() ? 0 : source.channel;
+        if (!has_whole_numbers(raster, ids)) {
+            return fail(ErrorCode::kUsage,
+                        path +
+                            " has no integer ids (its samples are fractions), so no value can be "
+                            "picked. Name the channel with the ids" +
+                            by({{setting::kMatteChannel}}) + ", or leave the matte value out.");
+        }
+        matte = equal_to(raster, ids, *select.value);
     } else {
         matte = coverage(raster, source);
     }

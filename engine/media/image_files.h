@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
 #include "engine/media/frame_reader.h"
+#include "engine/media/pass_layers.h"
 
 namespace weft {
 
@@ -18,8 +19,10 @@ namespace weft {
 
 /// Selects the matte in a matte file.
 struct MatteSelect {
-    /// An ID matte: 255 where the (integer) pixel equals it, else 0. Read from `channel`, or from
-    /// the first one; in a palette file the ids are the indices, not the colours.
+    /// An ID matte: 255 where the pixel, an integer or a float without a fraction, equals it, else
+    /// 0. Read from `channel`, else from the layer IndexOB, IndexMA or id beside a renderer's
+    /// picture, else from the first channel; in a palette file the ids are the indices, not the
+    /// colours.
     std::optional<int> value;
     std::string channel;  ///< "R", "G", "B", "A", "Y" (luma) or a channel's name; empty: A
                           ///< when the file has an alpha that is not all opaque, else Y.
@@ -39,7 +42,7 @@ struct MatteSelect {
 /// Coverage 0–255, of any size if `expected` is empty (rounded; 16-bit and float files are
 /// quantised). Errors: MissingFrames if there is no such file; Unreadable if it is not an image,
 /// lacks the channel, or differs in size from `expected` (the message gives both sizes); Usage for
-/// `value` on a float file, and for a movie.
+/// `value` where the samples have fractions, and for a movie.
 [[nodiscard]] Expected<Matte> read_matte(const std::string& path, const MatteSelect& select,
                                          Size expected);
 
@@ -58,18 +61,29 @@ enum class MotionConvention {
 struct MotionSelect {
     MotionConvention convention = MotionConvention::kFiles;
     MotionDirection direction = MotionDirection::kForward;
-    std::string layer = {};  ///< The part of the channels' names before ".X"; empty: detected.
+    /// The part of the channels' names before ".X", or a part's name; empty: detected.
+    std::string layer = {};
 };
-/// The motion to the next or the previous frame, H×W×2 pixels, y down. Errors: as read_flow();
-/// Unreadable, listing the channels, if there is no such pass.
+/// Where read_motion() reads a renderer's pass; of several layers that beside one of `beside`:
+/// find_pass(). Errors: as there.
+[[nodiscard]] Expected<FoundPass> locate_motion(const std::string& path, const MotionSelect& select,
+                                                const std::vector<std::string>& beside = {});
+/// The motion to the next or the previous frame, H×W×2 pixels, y down. Unknown where a vector is
+/// longer than twice the picture, or Cycles' 10000 beside its render region. Errors: as
+/// read_flow(); Unreadable, listing the layers, if there is no such pass.
 [[nodiscard]] Expected<FlowField> read_motion(const std::string& path, const MotionSelect& select,
                                               Size expected);
 
-/// A UV pass or an ST-map: two channels (U, V or R, G) in 0–1, origin at the bottom left; larger
-/// where a texture repeats. `layer`: the part of the names before ".U"; empty: detected. Errors: as
-/// read_motion().
+/// A UV pass or an ST-map: two channels (U, V, or X, Y as Blender's File Output node writes them,
+/// or R, G) in 0–1, origin at the bottom left; larger where a texture repeats. NaN where the pass
+/// says that it does not cover a pixel wholly. `layer`: the part of the names before ".U", or a
+/// part's name; empty: "UV" or "ST", also behind another name, else R, G of a file that has no
+/// other layer. Errors: as read_motion().
 [[nodiscard]] Expected<ImageF2> read_uv(const std::string& path, const std::string& layer,
                                         Size expected);
+/// Where read_uv() reads; of several layers that beside one of `beside`: find_pass().
+[[nodiscard]] Expected<FoundPass> locate_uv(const std::string& path, const std::string& layer,
+                                            const std::vector<std::string>& beside = {});
 
 /// Errors: MissingFrames if there is no such file.
 [[nodiscard]] Status check_picture_exists(const std::string& path);

@@ -1,15 +1,15 @@
-// Motion and texture coordinates from renderers' passes: read_motion() and read_uv().
+// Motion from renderers' passes: read_motion().
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/core/setting.h"
 #include "engine/media/image_files.h"
-#include "engine/media/pass_channels.h"
-#include "engine/media/raster.h"
+#include "engine/media/pass_layers.h"
 #include "engine/media/raster_errors.h"
 
 namespace weft {
@@ -22,6 +22,7 @@ struct Convention {
     enum { kPixels, kHalfPicture, kPicture } units;
     float forward_sign, backward_sign;
     bool premultiplied;
+    bool layer_by_direction = false;  // the first layer leads forward, the second backward
 };
 
 Convention convention_of(MotionConvention convention) {
@@ -31,7 +32,7 @@ Convention convention_of(MotionConvention convention) {
             // Cycles' Vector pass: X, Y lead to the previous frame; Z, W come from the next one.
             return {{"Z", "W"}, {"X", "Y"}, {"Vector", ""}, C::kPixels, -1, 1, false};
         case MotionConvention::kNuke:
-            return {{"u", "v"}, {"u", "v"}, {"forward", "backward"}, C::kPixels, 1, 1, false};
+            return {{"u", "v"}, {"u", "v"}, {"forward", "backward"}, C::kPixels, 1, 1, false, true};
         case MotionConvention::kMoonray:
             // Screen space, −1 to 1 over the picture's width; filtered, so premultiplied by alpha.
             return {{"R", "G"}, {"R", "G"}, {"motionvec", "motion_vectors"}, C::kHalfPicture, 1,
@@ -47,29 +48,78 @@ Convention convention_of(MotionConvention convention) {
     return {{"R", "G"}, {"R", "G"}, {"motionvector", ""}, C::kPixels, 1, -1, false};
 }
 
-// "shot.Vector" and the like: the part before ".X" in the file, if the layer is not named.
-Expected<std::string> find_layer(const std::string& path, const Convention& convention,
-                                 const std::array<const char*, 2>& channels, bool forward) {
-    WEFT_TRY(names, exr_channels(path));
-    const auto has = [&](const std::string& name) {
-        return std::find(names.begin(), names.end(), name) != names.end();
-    };
-    const std::string tail = std::string(".") + channels[0];
-    const std::string preferred = convention.layers[forward ? 0 : 1];
-    for (const std::string& wanted :
-         {preferred, std::string(convention.layers[0]), std::string(convention.layers[1])}) {
-        if (wanted.empty()) continue;
-        for (const std::string& name : names) {
-            if (!name.ends_with(wanted + tail)) continue;
-            const std::size_t before = name.size() - wanted.size() - tail.size();
-            if (before > 0 && name[before - 1] != '.') continue;
-            return name.substr(0, name.size() - tail.size()) + ".";
-        }
+PassKind kind_of(const Convention& convention, bool forward) {
+    const auto& channels = forward ? convention.forward : convention.backward;
+    PassKind kind{"motion", {}, {{channels[0], channels[1]}}, setting::kMotionLayer};
+    for (std::size_t k = 0; k < convention.layers.size(); ++k) {
+        const bool other_way = convention.layer_by_direction && k != (forward ? 0 : 1);
+        const std::string layer = convention.layers[k];
+        if (!layer.empty() && !other_way) kind.layers.push_back(layer);
     }
-    if (has(channels[0]) && has(channels[1])) return std::string();
-    return tl::unexpected(unreadable(path, "it has no motion pass in this convention",
-                                     "Name its layer" + by({{setting::kMotionLayer}}) +
-                                         "; its channels are: " + list_of(names) + "."));
+    return kind;
+}
+
+// Channels without a layer's name, where no other layer could be meant. R and G beside others are a
+// picture.
+std::optional<FoundPass> find_unnamed(const std::vector<PassLayer>& layers, const PassKind& kind) {
+    if (layers.size() > 1 && kind.channels.front().front() == "R") return std::nullopt;
+    std::optional<FoundPass> only;
+    for (const PassLayer& layer : layers) {
+        if (layer.prefixed || !layer.has(kind.channels.front())) continue;
+        if (only) return std::nullopt;
+        only = pass_in(layer, kind);
+    }
+    return only;
+}
+
+// Blender's File Output node writes a vector's first three channels: W, a part of the motion to the
+// next frame, is lost.
+Error lacks_w(const std::string& path, const std::string& layer) {
+    return unreadable(
+        path, "its layer '" + layer + "' has X and Y, the motion to the previous frame, but no W",
+        "Use it backwards" + by({{setting::kMotionDirection, "backward"}}) +
+            "; a File Output node of Blender drops W, the render's own multilayer EXR has it.");
+}
+
+}  // namespace
+
+Expected<FoundPass> locate_motion(const std::string& path, const MotionSelect& select,
+                                  const std::vector<std::string>& beside) {
+    WEFT_CHECK_OK(check_picture_exists(path));
+    const PassKind kind =
+        kind_of(convention_of(select.convention), select.direction == MotionDirection::kForward);
+    WEFT_TRY(layers, list_pass_layers(path));
+    auto found = find_pass(layers, kind, select.layer, beside);
+    if (!found && select.layer.empty()) found = find_unnamed(layers, kind);
+    if (found) return std::move(*found);
+    if (select.convention == MotionConvention::kBlender &&
+        select.direction == MotionDirection::kForward) {
+        PassKind cut = kind;
+        cut.channels = {{"X", "Y"}};
+        if (const auto there = find_pass(layers, cut, select.layer, beside))
+            return tl::unexpected(lacks_w(path, there->layer.name));
+    }
+    return tl::unexpected(no_such_pass(path, kind, select.layer, layers));
+}
+
+namespace {
+
+// The samples of the alpha that a vector was multiplied by; empty without one.
+std::vector<float> alpha_of(const std::string& path, const FoundPass& pass) {
+    const PassKind kind{"motion", {}, {{"A"}}, {}};
+    for (const std::string& name : {pass.layer.channel("A"), std::string("A")}) {
+        if (name.empty()) continue;
+        FoundPass alpha{pass.layer, {name}, {}};
+        Size size;
+        if (auto found = read_pass(path, kind, alpha, {}, size)) return std::move(found->front());
+    }
+    return {};
+}
+
+// A vector that leads so far out of the picture is none: Cycles writes 10000 beside its render
+// region, others infinity or a large number where nothing moves.
+float longest_px(Size size) {
+    return 2.0f * static_cast<float>(std::max(size.width, size.height));
 }
 
 }  // namespace
@@ -77,28 +127,15 @@ Expected<std::string> find_layer(const std::string& path, const Convention& conv
 Expected<FlowField> read_motion(const std::string& path, const MotionSelect& select,
                                 Size expected) {
     if (select.convention == MotionConvention::kFiles) return read_flow(path, expected);
-    WEFT_CHECK_OK(check_picture_exists(path));
     const Convention convention = convention_of(select.convention);
     const bool forward = select.direction == MotionDirection::kForward;
-    const auto& channels = forward ? convention.forward : convention.backward;
-    std::string layer = select.layer.empty() ? "" : select.layer + ".";
-    if (layer.empty()) {
-        WEFT_TRY(found, find_layer(path, convention, channels, forward));
-        layer = found;
-    }
+    const PassKind kind = kind_of(convention, forward);
+    WEFT_TRY(pass, locate_motion(path, select));
     Size size;
-    WEFT_TRY(u, read_pass_channel(path, layer + channels[0], "motion", size));
-    WEFT_TRY(v, read_pass_channel(path, layer + channels[1], "motion", size));
-    WEFT_CHECK_OK(check_plate_size(path, "its motion", size, expected, kRenderAlike));
-    std::vector<float> alpha;
-    if (convention.premultiplied) {
-        for (const std::string& name : {layer + "A", std::string("A")}) {
-            if (auto found = read_pass_channel(path, name, "motion", size)) {
-                alpha = std::move(*found);
-                break;
-            }
-        }
-    }
+    WEFT_TRY(vector, read_pass(path, kind, pass, expected, size));
+    const std::vector<float>&u = vector[0], &v = vector[1];
+    const std::vector<float> alpha =
+        convention.premultiplied ? alpha_of(path, pass) : std::vector<float>();
     const float sign = forward ? convention.forward_sign : convention.backward_sign;
     const float share = convention.units == Convention::kPixels        ? 0.0f
                         : convention.units == Convention::kHalfPicture ? 0.5f
@@ -109,43 +146,18 @@ Expected<FlowField> read_motion(const std::string& path, const MotionSelect& sel
     const float unit_y =
         share > 0 ? share * static_cast<float>(square ? size.width : size.height) : 1.0f;
     FlowField flow(size);
-    constexpr float kUnknown = 1e6f;
+    constexpr float kOutsideRegion = 10000;  // of Cycles
+    const float longest = longest_px(size);
     for (std::size_t i = 0; i < u.size(); ++i) {
         const float a = alpha.empty() ? 1.0f : alpha[i];
         const float x = sign * unit_x * u[i] / a, y = -sign * unit_y * v[i] / a;
-        const bool known = std::abs(x) < kUnknown && std::abs(y) < kUnknown;  // false for NaN
+        const bool known = std::abs(x) < longest && std::abs(y) < longest &&  // false for NaN
+                           std::abs(u[i]) != kOutsideRegion;
         flow.d.data()[2 * i] = known ? x : 0.0f;
         flow.d.data()[2 * i + 1] = known ? y : 0.0f;
         flow.valid.data()[i] = known ? 255 : 0;
     }
     return flow;
-}
-
-Expected<ImageF2> read_uv(const std::string& path, const std::string& layer, Size expected) {
-    WEFT_CHECK_OK(check_picture_exists(path));
-    std::string prefix = layer.empty() ? "" : layer + ".";
-    std::array<const char*, 2> channels{"U", "V"};
-    WEFT_TRY(names, exr_channels(path));
-    const auto has = [&](const std::string& name) {
-        return std::find(names.begin(), names.end(), name) != names.end();
-    };
-    if (layer.empty()) {
-        // "shot.UV.U" before a plain "U".
-        for (const std::string& name : names) {
-            if (name.ends_with("UV.U")) prefix = name.substr(0, name.size() - 1);
-        }
-    }
-    if (!has(prefix + channels[0])) channels = {"R", "G"};
-    Size size;
-    WEFT_TRY(u, read_pass_channel(path, prefix + channels[0], "UV", size));
-    WEFT_TRY(v, read_pass_channel(path, prefix + channels[1], "UV", size));
-    WEFT_CHECK_OK(check_plate_size(path, "its UV map", size, expected, kRenderAlike));
-    ImageF2 out(size);
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        out.data()[2 * i] = u[i];
-        out.data()[2 * i + 1] = v[i];
-    }
-    return out;
 }
 
 }  // namespace weft

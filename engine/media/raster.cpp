@@ -330,19 +330,6 @@ Expected<ColourPlace> locate_colour(const std::string& path, const std::string& 
     });
 }
 
-Expected<std::vector<std::string>> exr_channels(const std::string& path) {
-    return guarded(path, [&]() -> Expected<std::vector<std::string>> {
-        WEFT_TRY(input, open_input(path));
-        std::vector<std::string> names;
-        for (int part = 0; input->seek_subimage(part, 0); ++part) {
-            const ImageSpec& spec = input->spec();
-            names.insert(names.end(), spec.channelnames.begin(), spec.channelnames.end());
-        }
-        static_cast<void>(input->geterror());
-        return names;
-    });
-}
-
 Expected<RasterInfo> probe_raster(const std::string& path, const RasterRequest& request) {
     return guarded(path, [&] {
         return goes_to_libpng(path, request) ? probe_png(path) : probe_oiio(path, request);

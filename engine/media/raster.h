@@ -50,6 +50,7 @@ struct RasterRequest {
     /// Integer codes unchanged: palette indices instead of colours, and 1, 2 and 4 bits without
     /// scaling to 8.
     bool raw_codes = false;
+    int part = -1;  ///< Only this part of an EXR; -1: the first that has it.
 };
 
 /// The part and channels of an EXR file that hold a layer's R, G and B.
@@ -60,10 +61,6 @@ struct ColourPlace {
 /// Errors: Unreadable if the file is not an EXR or the layer lacks one of the three.
 [[nodiscard]] Expected<ColourPlace> locate_colour(const std::string& path,
                                                   const std::string& layer);
-
-/// The names of all channels of an EXR's parts, prefixed with the part's name if the channels have
-/// no layer. Errors: Unreadable.
-[[nodiscard]] Expected<std::vector<std::string>> exr_channels(const std::string& path);
 
 /// Reads only the header. Errors: Unreadable, with the path, also if there is no such layer or
 /// channel.

@@ -14,6 +14,15 @@ namespace weft {
 /// "PATH cannot be read: REASON. WHAT TO DO"
 [[nodiscard]] Error unreadable(const std::string& path, const std::string& reason,
                                const std::string& advice);
+/// Blender 3.4 cuts a channel's name at 64 characters; those that become alike are lost.
+[[nodiscard]] inline bool is_cut_name(const std::string& channel) {
+    constexpr std::size_t kMostCharacters = 63;
+    return channel.size() >= kMostCharacters;
+}
+inline constexpr const char* kShorterNames =
+    "Blender cuts channels' names at 64 characters, so that some are lost: give the view layer a "
+    "name of at most 40 characters.";
+
 [[nodiscard]] Error damaged(const std::string& path, const std::string& reason);
 
 /// Errors: NoSpace if a picture of this size takes more than decode_limit_bytes(), so that the

@@ -38,7 +38,7 @@ const std::vector<Untested> kThroughOthers{
     {"app/render/output_plan.h", "tests/cli: every command that writes"},
     {"app/render/plane_file.h", "tests/cli: the exported plane"},
     {"app/render/st_map_files.h", "tests/cli: the exported ST-maps"},
-    {"app/shot/form_files.h", "internal: tests/shot and tests/render, through shot.h"},
+    {"app/shot/settled_region.h", "internal: tests/shot and tests/render, through shot.h"},
     {"app/session/action.h", "tests/ui, through session.h"},
     {"app/base/detached_process.h", "tests/ui, through app/jobs/child_jobs.cpp"},
     {"app/jobs/child_jobs.h", "tests/ui, through session_view.h"},

@@ -80,8 +80,6 @@ TEST_F(BlenderShot, FromThePickToTheExportedFrames) {
                                   "new.png",
                                   "--albedo",
                                   "cg/####.exr",
-                                  "--light-layer",
-                                  "shot.DiffCol",
                                   "--light-exact",
                                   "--grain",
                                   "0",

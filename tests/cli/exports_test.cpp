@@ -148,6 +148,7 @@ TEST_F(Exports, StMapsPointToTheReferenceFrameAndBack) {
     for (int y = c.y + 8; y < c.y + Card::kHeight - 8; ++y) {
         for (int x = c.x + 8; x < c.x + Card::kWidth - 8; ++x) {
             ASSERT_EQ(shown->alpha.at(x, y), 1.0f);
+            ASSERT_EQ(shown->rgb.at(x, y, 2), 1.0f) << "Blender's Map UV multiplies by blue";
             EXPECT_NEAR(warp.at(x, y, 0) * 160, static_cast<float>(x) + 0.5f - 4, 0.1f);
             EXPECT_NEAR((1 - warp.at(x, y, 1)) * 120, static_cast<float>(y) + 0.5f - 2, 0.1f);
             EXPECT_NEAR(back.at(x - 4, y - 2, 0) * 160, static_cast<float>(x) + 0.5f, 0.1f);
@@ -157,6 +158,7 @@ TEST_F(Exports, StMapsPointToTheReferenceFrameAndBack) {
     }
     EXPECT_GT(compared, 1000);
     EXPECT_EQ(shown->alpha.at(4, 4), 0.0f);
+    EXPECT_EQ(shown->rgb.at(4, 4, 2), 0.0f);
 }
 
 TEST_F(Exports, WhatCannotBeWrittenIsRefusedBeforeAnyWork) {

@@ -19,10 +19,13 @@ class CryptomatteTest : public MediaTest {
     // 4×1: wholly the wall; three quarters wall, one the ball; wholly the ball; nothing.
     void put(const std::string& name, const std::string& manifest,
              std::uint32_t wall_id = cryptomatte_id("Wall"),
-             std::uint32_t ball_id = cryptomatte_id("Ball")) {
+             std::uint32_t ball_id = cryptomatte_id("Ball"), const std::string& layer = "obj",
+             const std::vector<std::string>& channels = {"obj00.r", "obj00.g", "obj00.b",
+                                                         "obj00.a"}) {
         OIIO::ImageSpec spec(4, 1, 7, OIIO::TypeFloat);
-        spec.channelnames = {"R", "G", "B", "obj00.r", "obj00.g", "obj00.b", "obj00.a"};
-        spec.attribute("cryptomatte/1234567/name", "obj");
+        spec.channelnames = {"R", "G", "B"};
+        spec.channelnames.insert(spec.channelnames.end(), channels.begin(), channels.end());
+        spec.attribute("cryptomatte/1234567/name", layer);
         spec.attribute("cryptomatte/1234567/hash", "MurmurHash3_32");
         spec.attribute("cryptomatte/1234567/conversion", "uint32_to_float32");
         if (!manifest.empty()) spec.attribute("cryptomatte/1234567/manifest", manifest);
@@ -131,6 +134,50 @@ TEST_F(CryptomatteTest, IdsThatHalfHasRoundedAreNamed) {
     ASSERT_FALSE(lost);
     EXPECT_EQ(lost.error().code, ErrorCode::kUnreadable);
     EXPECT_THAT(lost.error().message, HasSubstr("rounded"));
+}
+
+// A File Output node names the Cryptomatte by its slot, and its channels in capital letters.
+TEST_F(CryptomatteTest, ASlotsNameNeedNotEndInANumber) {
+    put("a.exr", R"({"Wall":"2c388f97"})", 0x2c388f97u, 0x74d3ebe9u, "matte",
+        {"matte.R", "matte.G", "matte.B", "matte.A"});
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "Wall", {}).value().at(0, 0), 255);
+}
+
+TEST_F(CryptomatteTest, CutNamesAreTheCauseOfLostChannels) {
+    const std::string layer = std::string(48, 'L') + ".CryptoObject";
+    put("a.exr", R"({"Wall":"2c388f97"})", 0x2c388f97u, 0x74d3ebe9u, layer,
+        {layer + "00.", layer + "01.", layer + "02.", "V"});
+    const auto lost = read_cryptomatte(in("a.exr"), "Wall", {});
+    ASSERT_FALSE(lost);
+    EXPECT_THAT(lost.error().message, HasSubstr("64 characters"));
+}
+
+// Two renders of one scene list the same objects.
+TEST_F(CryptomatteTest, TheLayerOfThePlatesRenderIsMeant) {
+    OIIO::ImageSpec spec(1, 1, 8, OIIO::TypeFloat);
+    spec.channelnames.clear();
+    for (const std::string view : {"bg", "fg"}) {
+        for (const char* channel : {"r", "g", "b", "a"})
+            spec.channelnames.push_back(view + ".Crypto00." + channel);
+        spec.attribute("cryptomatte/" + view + "/name", view + ".Crypto");
+        spec.attribute("cryptomatte/" + view + "/manifest", kManifest);
+    }
+    const float wall = std::bit_cast<float>(cryptomatte_id("Wall"));
+    const std::vector<float> data{0, 0, 0, 0, wall, 1, 0, 0};
+    auto output = OIIO::ImageOutput::create(in("two.exr"));
+    ASSERT_TRUE(output->open(in("two.exr"), spec));
+    ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+    ASSERT_TRUE(output->close());
+    const auto beside = [&](const char* names, const char* layer) {
+        return cryptomatte_names_beside(in("two.exr"), names, layer);
+    };
+    EXPECT_EQ(beside("Wall, B*", "fg.Combined"), "fg.Crypto/Wall, fg.Crypto/B*");
+    EXPECT_EQ(beside("Wall", "bg.Combined"), "Wall") << "the first in any case";
+    EXPECT_EQ(beside("Wall", "other.Combined"), "Wall");
+    EXPECT_EQ(beside("bg.Crypto/Wall", "fg.Combined"), "bg.Crypto/Wall");
+    EXPECT_EQ(cryptomatte_layer(in("two.exr"), beside("Wall", "fg.Combined")), "fg.Crypto");
+    EXPECT_EQ(read_cryptomatte(in("two.exr"), beside("Wall", "fg.Combined"), {}).value().at(0, 0),
+              255);
 }
 
 TEST_F(CryptomatteTest, OneUnlistedObjectIsNoSignOfRounding) {

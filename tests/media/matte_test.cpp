@@ -57,6 +57,21 @@ TEST_F(MatteFile, DeeperSamplesAreRounded) {
     EXPECT_THAT(read("a.exr", {}, 5), ElementsAre(0, 128, 255, 0, 1));
 }
 
+// Cycles' IndexOB.
+TEST_F(MatteFile, WholeNumbersInFloatsAreIds) {
+    put<float>("ids.exr", 4, {1, 7, 0, 0, 0.5f, 0, 0, 2}, OIIO::TypeFloat,
+               {"v.Combined.R", "v.Combined.G", "v.Combined.B", "v.IndexOB.X"});
+    EXPECT_THAT(read("ids.exr", value(2), 2), ElementsAre(0, 255)) << "found beside the picture";
+    MatteSelect named = value(0);
+    named.channel = "v.IndexOB.X";
+    EXPECT_THAT(read("ids.exr", named, 2), ElementsAre(255, 0));
+    named.channel = "v.Combined.R";
+    const auto fractions = read_matte(in("ids.exr"), named, {2, 1});
+    ASSERT_FALSE(fractions);
+    EXPECT_EQ(fractions.error().code, ErrorCode::kUsage);
+    EXPECT_THAT(fractions.error().message, HasSubstr("fractions"));
+}
+
 TEST_F(MatteFile, ChannelsAreChosen) {
     put<std::uint8_t>("a.png", 4, {10, 20, 30, 40, 50, 60, 70, 255}, OIIO::TypeUInt8);
     EXPECT_THAT(read("a.png", channel("R"), 2), ElementsAre(10, 50));

@@ -113,7 +113,7 @@ Region full_region() {
     r.light.exact = true;
     r.grade = {0.5, -1, 20, {1, 0.9, 0.8}, {0.01, 0, -0.02}, 1.2, 0.9, 0.7, 15, {}};
     r.layer = {0.8, BlendMode::kSoftLight, {}};
-    r.finish = {0.5, 0.25, "depth/####.exr", 172.8, {}};
+    r.finish = {0.5, 0.25, "depth/####.exr", "shot.Depth", 172.8, {}};
     r.lines = {"lines/####.png", true, true, 2.5, {}};
     return r;
 }

@@ -1,0 +1,185 @@
+#include "app/shot/pass_choice.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "app/shot/form_files.h"
+#include "engine/core/setting.h"
+#include "engine/core/text.h"
+#include "engine/media/cryptomatte.h"
+#include "engine/media/form_passes.h"
+#include "engine/media/image_files.h"
+#include "engine/media/light_passes.h"
+#include "engine/media/sequence_pattern.h"
+
+namespace weft {
+namespace {
+
+bool is_exr(const std::string& files) {
+    return lower_case(std::filesystem::path(files).extension().string()) == ".exr";
+}
+
+std::optional<std::string> first_file(const std::string& files, const std::vector<int>& frames) {
+    const auto pattern = SequencePattern::parse(files);
+    if (!pattern) return std::nullopt;
+    std::error_code ignored;
+    for (const int frame : frames) {
+        std::string path = pattern->path_for(frame);
+        if (std::filesystem::exists(path, ignored)) return path;
+        if (pattern->is_single()) break;
+    }
+    return std::nullopt;
+}
+
+class Chooser {
+  public:
+    Chooser(Region& region, const Plate& plate, const std::vector<int>& frames)
+        : region_(region), plate_(plate), frames_(frames) {
+        if (!plate.layer.empty()) beside_.push_back(plate.layer);
+        const MatteSource& matte = *region.matte;
+        if (matte.select.crypto.empty()) return;
+        const auto path = first_file(matte.files, frames);
+        if (!path) return;
+        const std::string layer = cryptomatte_layer(*path, matte.select.crypto);
+        if (!layer.empty()) beside_.push_back(layer);
+    }
+
+    Status choose() {
+        MotionSource& motion = region_.motion;
+        if (motion.convention != MotionConvention::kFiles) {
+            const MotionSelect select{motion.convention, motion.direction, motion.layer};
+            WEFT_CHECK_OK(settle(
+                "motion pass", motion.files, motion.layer, setting::kMotionLayer,
+                [&](const std::string& path) { return locate_motion(path, select, beside_); }));
+        }
+        Placement& placement = region_.placement;
+        WEFT_CHECK_OK(settle(
+            "UV pass", placement.uv, placement.uv_layer, setting::kUvLayer,
+            [&](const std::string& path) { return locate_uv(path, placement.uv_layer, beside_); }));
+        WEFT_CHECK_OK(choose_form());
+        return choose_light();
+    }
+
+    PassChoice choice;
+
+  private:
+    using Locate = std::function<Expected<FoundPass>(const std::string&)>;
+
+    // A file that is not there is reported where it is missed.
+    Status settle(const std::string& what, const std::string& files, std::string& layer,
+                  std::string_view setting, const Locate& locate) {
+        const auto path = files.empty() ? std::nullopt : first_file(files, frames_);
+        if (!path) return {};
+        WEFT_TRY(found, locate(*path));
+        warn_of_codec(what, *path, found);
+        if (!layer.empty()) return {};
+        layer = found.layer.name;
+        if (!found.also_called.empty()) tell_choice(what, found, setting);
+        return {};
+    }
+
+    Status choose_form() {
+        FormParams& form = region_.form;
+        FinishParams& finish = region_.finish;
+        const std::string used = form_files(region_).pattern;
+        if (!used.empty() && used == form.position) {
+            WEFT_CHECK_OK(settle("position pass", used, form.position_layer,
+                                 setting::kPositionLayer, [&](const std::string& path) {
+                                     return locate_positions(path, form.position_layer, beside_);
+                                 }));
+        } else if (!used.empty() && used == form.normal && is_exr(used)) {
+            WEFT_CHECK_OK(settle("normal pass", used, form.normal_layer, setting::kNormalLayer,
+                                 [&](const std::string& path) {
+                                     return locate_normals(path, form.normal_layer, beside_);
+                                 }));
+            warn_of_axes(form);
+        }
+        const bool depth = finish.focus > 0 || form.source == FormSource::kDepth;
+        if (!depth || !is_exr(finish.depth)) return {};
+        return settle("depth pass", finish.depth, finish.depth_layer, setting::kDepthLayer,
+                      [&](const std::string& path) {
+                          return locate_depth(path, finish.depth_layer, beside_);
+                      });
+    }
+
+    Status choose_light() {
+        LightParams& light = region_.light;
+        const bool albedo = light.lighting.empty();
+        const std::string& files = albedo ? light.albedo : light.lighting;
+        const auto path = files.empty() ? std::nullopt : first_file(files, frames_);
+        if (!path) return {};
+        if (light.pass_layer.empty()) {
+            WEFT_TRY(layer,
+                     find_light_layer(*path, albedo ? LightPass::kAlbedo : LightPass::kLighting,
+                                      beside_));
+            light.pass_layer = std::move(layer);
+        }
+        if (files != plate_.path || !is_same_picture(*path, light.pass_layer, plate_.layer))
+            return {};
+        const std::string what = albedo ? "albedo" : "lighting";
+        return fail(ErrorCode::kUnreadable,
+                    "The " + what + " pass " + *path +
+                        " is the plate's own picture, light and colour together. Give the " + what +
+                        " pass" + by({{albedo ? setting::kAlbedo : setting::kLighting}}) +
+                        ", or name its layer" + by({{setting::kLightLayer}}) + ".");
+    }
+
+    // The DCT of DWAA and DWAB is applied to channels of these names, which are colours to it.
+    void warn_of_codec(const std::string& what, const std::string& path, const FoundPass& found) {
+        std::string changed;
+        for (const std::string& channel : found.channels) {
+            const std::string last = channel.substr(channel.rfind('.') + 1);
+            if (last == "Y" || last == "R" || last == "G" || last == "B")
+                changed += (changed.empty() ? "" : ", ") + last;
+        }
+        if (!found.layer.codec.starts_with("dwa") || changed.empty()) return;
+        choice.warnings.push_back("The " + what + " " + path + " is compressed with " +
+                                  (found.layer.codec.starts_with("dwab") ? "DWAB" : "DWAA") +
+                                  ", which changes its channel " + changed +
+                                  ": expect errors of some thousandths of the scene's size. Write "
+                                  "passes with a lossless codec such as ZIP.");
+    }
+
+    void warn_of_axes(const FormParams& form) {
+        const auto path = first_file(form.normal, frames_);
+        if (!path || axes_of_normals(form, *path) != NormalAxes::kPresumedCamera) return;
+        choice.warnings.push_back(
+            "Region '" + region_.name + "': the normal pass " + *path +
+            " does not tell whether its axes are the camera's or the world's, as those of Cycles "
+            "and Arnold are. They are taken for the camera's; set them" +
+            by({{setting::kNormalSpace, "camera"}, {setting::kNormalSpace, "world"}}) + ".");
+    }
+
+    void tell_choice(const std::string& what, const FoundPass& found, std::string_view setting) {
+        std::string others;
+        for (const std::string& name : found.also_called)
+            others += (others.empty() ? "" : ", ") + name;
+        const std::string& layer = found.layer.name;
+        const std::string render = layer.substr(0, layer.rfind('.') + 1);
+        std::string why = "the first in the file";
+        for (const std::string& neighbour : beside_)
+            if (neighbour.substr(0, neighbour.rfind('.') + 1) == render)
+                why = "which belongs to " + neighbour;
+        auto& told = why.starts_with("the first") ? choice.warnings : choice.notes;
+        told.push_back("Region '" + region_.name + "': the " + what + " is the layer " + layer +
+                       ", " + why + ", not " + others + ". Name another if needed" +
+                       by({{setting}}) + ".");
+    }
+
+    Region& region_;
+    const Plate& plate_;
+    const std::vector<int>& frames_;
+    std::vector<std::string> beside_;
+};
+
+}  // namespace
+
+Expected<PassChoice> choose_pass_layers(Region& region, const Plate& plate,
+                                        const std::vector<int>& frames) {
+    Chooser chooser(region, plate, frames);
+    WEFT_CHECK_OK(chooser.choose());
+    return std::move(chooser.choice);
+}
+
+}  // namespace weft
