@@ -1,7 +1,6 @@
 // A shot split into farm tasks; looks and collected projects.
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -104,41 +103,16 @@ TEST_F(Farm, ATaskRefusesWhatWasNotSubmitted) {
     expect_failure(run({"task", "farm/job.json", "planes", "0", "--progress", "none"}), 3,
                    {"texture", "Submit again"});
     put("sample.png", sample);
+    const std::string matte = bytes("masks/0005.png");
+    put("masks/0005.png", bytes("masks/0001.png"));
+    expect_failure(run({"task", "farm/job.json", "planes", "0", "--progress", "none"}), 3,
+                   {"the mattes", "Submit again"});
+    put("masks/0005.png", matte);
     EXPECT_EQ(task("planes", 0), 0);
     fs::remove(folder_ / "farm" / name);
     expect_failure(run({"task", "farm/job.json", "frames", "0", "--progress", "none"}), 3,
                    {name, "Submit again"});
     EXPECT_FALSE(fs::exists(folder_ / "out/0001.png"));
-}
-
-// Corrected inputs would give frames of two kinds, in one job and in one that goes on.
-TEST_F(Farm, ACorrectedInputIsNotMixedWithWhatWasSubmitted) {
-    make_project();
-    submitted("slurm");
-    const auto run_stages = [&](const Words& stages) {
-        for (const Json& stage : Json::parse(bytes("farm/job.json"))["stages"]) {
-            if (std::find(stages.begin(), stages.end(), stage["name"]) == stages.end()) continue;
-            for (int k = 0; k < static_cast<int>(stage["frames"].size()); ++k)
-                ASSERT_EQ(task(stage["name"], k), 0) << stage["name"] << k;
-        }
-    };
-    run_stages({"motion", "analyse", "planes"});
-    ASSERT_EQ(task("frames", 0), 0);
-    // Of a frame that another task renders.
-    fs::copy_file(folder_ / "masks/0001.png", folder_ / "masks/0007.png",
-                  fs::copy_options::overwrite_existing);
-    fs::copy_file(folder_ / "masks/0001.png", folder_ / "masks/0002.png",
-                  fs::copy_options::overwrite_existing);
-    expect_failure(run({"task", "farm/job.json", "frames", "1", "--progress", "none"}), 3,
-                   {"the mattes", "Submit again"});
-    const Outcome again = run({"submit", "shot.weft", "--to", "slurm", "-o", "farm", "--chunk", "3",
-                               "--threads", "1", "--resume"});
-    expect_success(again);
-    EXPECT_THAT(again.err, HasSubstr("The mattes changed since frames 1-3 were rendered"));
-    run_stages({"motion", "analyse", "planes", "frames"});
-    const auto by_tasks = contents("out");
-    expect_success(run({"render", "shot.weft", "--restart", "--no-cache", "--backend", "cpu"}));
-    EXPECT_EQ(contents("out"), by_tasks);
 }
 
 TEST_F(Farm, SubmitRefusesWhatRenderRefuses) {

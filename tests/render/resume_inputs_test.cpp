@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "app/render/existing_frames.h"
+#include "app/render/farm.h"
 #include "app/render/input_hashes.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
@@ -85,6 +86,7 @@ class ResumeInputs : public ShotTest {
         fs::last_write_time(in(name), time);
     }
     WriteOptions replacing_;
+    std::vector<std::string> said_;  // of what was submitted last
 };
 
 TEST_F(ResumeInputs, UnchangedInputsKeepAllFrames) {
@@ -186,6 +188,59 @@ TEST_F(ResumeInputs, FramesOfAnEarlierWeftCannotBeCompared) {
     EXPECT_THAT(result->warnings,
                 ElementsAre(AllOf(HasSubstr("An earlier Weft rendered frames 2-3"),
                                   HasSubstr("these 2 are rendered again"))));
+}
+
+// Corrected inputs would give frames of two kinds: in one job, and in one that is submitted again.
+TEST_F(ResumeInputs, TasksOfAFarmRenderWhatWasSubmittedAndKeepWhatHoldsStill) {
+    FarmOptions farm;
+    farm.project = unmeasured().project;
+    farm.project_file = in("shot.weft");
+    farm.folder = in("farm");
+    farm.chunk = 3;
+    farm.rule = replacing_.rule;
+    const auto submit = [&] {
+        JobSpec spec = resumed(unmeasured());
+        const auto checked = check_job(spec);
+        ASSERT_TRUE(checked) << checked.error().text();
+        said_ = checked->warnings;
+        const auto written = write_farm_job(farm, checked->shot);
+        ASSERT_TRUE(written) << written.error().text();
+    };
+    const auto run = [&](const std::string& stage, int index) -> Expected<JobResult> {
+        WEFT_TRY(task, read_farm_task(in("farm/job.json"), stage, index));
+        JobSpec spec = unmeasured();
+        spec.project = task.project;
+        spec.settings = task.settings;
+        spec.inputs = task.inputs;
+        spec.inputs_of = task.inputs_of;
+        spec.stage = task.stage;
+        spec.existing = task.existing;
+        spec.cache.folder = task.cache;
+        return run_job(spec, {}, {});
+    };
+    submit();
+    EXPECT_THAT(said_, IsEmpty());
+    ASSERT_TRUE(run("analyse", 0));
+    ASSERT_TRUE(run("frames", 0));
+    // Of a frame that another task renders.
+    ASSERT_TRUE(write_matte(in("masks/0006.png"), card_matte(1), replacing_.rule));
+    const auto refused = run("frames", 0);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(refused.error().text(), AllOf(HasSubstr("the mattes"), HasSubstr("Submit again")));
+    submit();
+    EXPECT_THAT(said_, IsEmpty()) << "frames 1 to 3 do not depend on it";
+    ASSERT_TRUE(run("analyse", 0));
+    const auto first = run("frames", 0), second = run("frames", 1);
+    ASSERT_TRUE(first && second);
+    EXPECT_THAT(rendered(*first), IsEmpty());
+    EXPECT_THAT(rendered(*second), ElementsAre(4, 5, 6));
+    ASSERT_TRUE(write_matte(in("masks/0002.png"), card_matte(4), replacing_.rule));
+    submit();
+    EXPECT_THAT(said_, ElementsAre(HasSubstr("The mattes changed since frames 2-6 were rendered")));
+    const auto third = run("frames", 0);
+    ASSERT_TRUE(third);
+    EXPECT_THAT(rendered(*third), ElementsAre(2, 3));
 }
 
 // The text in a frame's header depends on neither the rendered part nor the place.
