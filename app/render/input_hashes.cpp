@@ -173,6 +173,7 @@ void InputHashes::add_entries(const std::vector<int>& frames, const std::vector<
 void InputHashes::read_plate(const FrameSpan& span) {
     const std::vector<int> frames = frames_in(span);
     std::vector<std::string> paths;
+    paths.reserve(frames.size());
     for (const int frame : frames)
         paths.push_back(shot_->plate->path_of(frame));
     const bool is_movie = paths.size() > 1 && paths.front() == paths.back();
@@ -227,13 +228,14 @@ void InputHashes::add_texture_and_color() {
     }
     whole_[index_of(InputKind::kTexture)] = textures.finish();
     const ShotSpaces& spaces = shot_->spaces;
-    const char* const config = std::getenv("OCIO");
-    given_[index_of(InputKind::kColor)] =
-        config &&
-        (needs_config(spaces.plate) || needs_config(spaces.working) || needs_config(spaces.out) ||
-         std::any_of(spaces.textures.begin(), spaces.textures.end(), needs_config));
-    if (given_[index_of(InputKind::kColor)])
-        whole_[index_of(InputKind::kColor)] = contents_of(config);
+    const bool needed = needs_config(spaces.plate) || needs_config(spaces.working) ||
+                        needs_config(spaces.out) ||
+                        std::any_of(spaces.textures.begin(), spaces.textures.end(), needs_config);
+    const char* const config =
+        std::getenv("OCIO");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+    if (!needed || !config) return;
+    given_[index_of(InputKind::kColor)] = true;
+    whole_[index_of(InputKind::kColor)] = contents_of(config);
 }
 
 InputHashes::Hashes InputHashes::hashes(int frame) const {
