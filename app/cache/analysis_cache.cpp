@@ -13,6 +13,7 @@
 #include "app/base/guarded.h"
 #include "app/cache/analysis_key.h"
 #include "app/cache/blob_file.h"
+#include "app/shot/shot_inputs.h"
 #include "engine/core/setting.h"
 #include "engine/media/atomic_file.h"
 
@@ -278,6 +279,15 @@ std::string cache_root(const AnalysisCacheOptions& options) {
     return options.folder.empty() ? default_folder().string() : options.folder;
 }
 
+std::string fingerprint_folder(const std::string& cache) {
+    return (fs::path(cache) / "fingerprints").string();
+}
+
+std::shared_ptr<Fingerprints> open_fingerprints(const AnalysisCacheOptions& options) {
+    const std::string root = options.keep ? cache_root(options) : std::string();
+    return std::make_shared<Fingerprints>(root.empty() ? root : fingerprint_folder(root));
+}
+
 Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(const Shot& shot,
                                                              const AnalysisCacheOptions& options,
                                                              std::vector<std::string>& warnings) {
@@ -293,6 +303,9 @@ Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(const Shot& shot,
         warnings.push_back("The cache folder cannot be written; this analysis will not be kept.");
         keep = false;
     }
+    WEFT_TRY(inputs, input_files(shot));
+    shot.files->look_at(inputs);
+    shot.files->save();
     std::vector<RegionKeys> keys;
     for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
         WEFT_TRY(of_region, region_keys(shot, k, shot.painted));
@@ -321,6 +334,7 @@ Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(const Shot& shot,
         // Motion gets a larger limit than planes, which are synthesized again in seconds.
         prune(root.parent_path() / "motion", {}, options.limit_bytes / 2);
         prune(root.parent_path() / "planes", {}, options.limit_bytes / 16);
+        prune(root.parent_path() / "fingerprints", {}, options.limit_bytes / 256);
     }
     return std::make_shared<DiskStore>(std::move(root), std::move(keys), std::move(private_root),
                                        options.required);

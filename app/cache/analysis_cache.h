@@ -32,15 +32,22 @@ class AnalysisCache : public AnalysisStore {
 /// The cache folder: `folder`, or the default for an empty one; empty if there is none.
 [[nodiscard]] std::string cache_root(const AnalysisCacheOptions& options);
 
+/// The folder of Fingerprints in a cache folder.
+[[nodiscard]] std::string fingerprint_folder(const std::string& cache);
+/// What is known of the inputs of shots, for OpenShotOptions::files: kept in the cache folder, or,
+/// without one or with keep = false, nowhere.
+[[nodiscard]] std::shared_ptr<Fingerprints> open_fingerprints(const AnalysisCacheOptions& options);
+
 /// Opens the cache for a shot. Each region has a folder named by a hash of everything that its
-/// analysis depends on: files of plate, mattes, holdouts and motion by name, size and time; painted
-/// mattes by their contents, so that a project may be saved elsewhere; colour spaces, quality,
-/// references; in paper mode also the texture. A changed placement or light strength therefore
-/// reuses the analysis; a changed file does not. An in-memory matte is identified by itself until
-/// mattes_written(). Blobs are compressed and have a checksum; a damaged one counts as missing.
-/// Several processes may share a folder. If the folder cannot be written, a temporary one is used
-/// and `warnings` says so; if its disk fills up later, the rest goes to a temporary folder and
-/// remarks() says so.
+/// analysis depends on: the files of plate, mattes, holdouts and motion (Fingerprints::id());
+/// painted mattes by their contents, so that a project may be saved elsewhere; colour spaces,
+/// quality, references; in paper mode also the texture. A changed placement or light strength
+/// therefore reuses the analysis, as does a file that was rendered from and is touched later; a
+/// file with other bytes does not, whatever its size and time. An in-memory matte is
+/// identified by itself until mattes_written(). Blobs are compressed and have a checksum; a damaged
+/// one counts as missing. Several processes may share a folder. If the folder cannot be written, a
+/// temporary one is used and `warnings` says so; if its disk fills up later, the rest goes to a
+/// temporary folder and remarks() says so.
 [[nodiscard]] Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(
     const Shot& shot, const AnalysisCacheOptions& options, std::vector<std::string>& warnings);
 

@@ -1,70 +1,74 @@
 #include "app/cache/analysis_key.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 
 #include "app/cache/stage_cache.h"
 #include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
 #include "engine/core/hash.h"
-#include "engine/core/input_file.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/pipeline/region_mattes.h"
 
 namespace weft {
 namespace {
 
-namespace fs = std::filesystem;
-
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 35;
+constexpr int kAnalysisVersion = 37;
 constexpr int kFormVersion = 6;   // of the form alone
 constexpr int kFocusVersion = 2;  // of the focus alone
 
-void add_file(Hasher& hasher, const std::string& path) {
-    std::error_code error;
-    const auto size = fs::file_size(path, error);
-    const auto time = fs::last_write_time(path, error).time_since_epoch().count();
-    hasher.text(path)
-        .value(static_cast<std::uint64_t>(error ? 0 : size))
-        .value(static_cast<std::int64_t>(time));
-}
+// What keys know files by.
+struct Files {
+    Fingerprints& known;
+    const PaintedMattes& painted;  // those without a file
+};
 
-Status add_pattern(Hasher& hasher, const std::string& text) {
-    hasher.text(text);
-    if (text.empty()) return {};
-    WEFT_TRY(pattern, SequencePattern::parse(text));
-    if (pattern.is_single()) {
-        add_file(hasher, text);
-        return {};
-    }
-    WEFT_TRY(frames, pattern.list_frames());
-    for (const int frame : frames)
-        add_file(hasher, pattern.path_for(frame));
-    return {};
+void add(Hasher& hasher, const Expected<Hash128>& file) {
+    if (file)
+        hasher.text("file").value(file->high).value(file->low);
+    else
+        hasher.text("not there");
 }
 
 // By its contents: saving a project elsewhere takes its painted mattes along, and their analysis is
 // worth keeping.
-void add_painted(Hasher& hasher, int frame, const std::string& path, const PaintedMattes& painted) {
-    hasher.value(frame);
-    if (const auto unwritten = painted.find(path); unwritten != painted.end()) {
-        hasher.text("in memory").text(path).image(*unwritten->second);
-    } else if (const auto contents = hash_of_contents(path)) {
-        hasher.text("painted").value(contents->high).value(contents->low);
-    } else {
-        hasher.text("not there").text(path);
+void add_file(Hasher& hasher, const std::string& path, const Files& files) {
+    add(hasher, files.known.contents(path));
+}
+
+Status add_pattern(Hasher& hasher, const std::string& text, const Files& files) {
+    hasher.value(!text.empty());
+    if (text.empty()) return {};
+    WEFT_TRY(pattern, SequencePattern::parse(text));
+    hasher.value(pattern.is_single());
+    if (pattern.is_single()) {
+        add_file(hasher, text, files);
+        return {};
     }
+    WEFT_TRY(frames, pattern.list_frames());
+    hasher.value(static_cast<std::uint64_t>(frames.size()));
+    for (const int frame : frames)
+        add(hasher.value(frame), files.known.id(pattern.path_for(frame)));
+    return {};
+}
+
+void add_painted(Hasher& hasher, int frame, const std::string& path, const Files& files) {
+    hasher.value(frame);
+    const auto unwritten = files.painted.find(path);
+    if (unwritten == files.painted.end())
+        add_file(hasher, path, files);
+    else
+        hasher.text("in memory").text(path).image(*unwritten->second);
 }
 
 // What is confirmed on the frames of [first, last).
 void add_confirmed(Hasher& hasher, const MatteSource& matte, int first, int last,
-                   const PaintedMattes& painted) {
+                   const Files& files) {
     for (const auto& [frame, edge] : matte.confirmed) {
         if (frame < first || frame >= last || matte.keyframes.contains(frame)) continue;
-        add_painted(hasher.text("confirmed"), frame, edge.path, painted);
-        add_painted(hasher, frame, edge.area, painted);
+        add_painted(hasher.text("confirmed"), frame, edge.path, files);
+        add_painted(hasher, frame, edge.area, files);
     }
 }
 
@@ -79,24 +83,24 @@ void add_settings(Hasher& hasher, const MatteSource& matte) {
         .text(matte.select.crypto);
 }
 
-Status add_matte(Hasher& hasher, const MatteSource& matte, const PaintedMattes& painted) {
-    WEFT_CHECK_OK(add_pattern(hasher, matte.files));
+Status add_matte(Hasher& hasher, const MatteSource& matte, const Files& files) {
+    WEFT_CHECK_OK(add_pattern(hasher, matte.files, files));
     for (const auto& [frame, key] : matte.keyframes)
-        add_painted(hasher, frame, key.path, painted);
+        add_painted(hasher, frame, key.path, files);
     add_confirmed(hasher, matte, std::numeric_limits<int>::min(), std::numeric_limits<int>::max(),
-                  painted);
+                  files);
     if (!matte.shape.empty()) {
         add_shape(hasher.text("shape"), matte.shape);
-        if (matte.shape.follow != ShapeFollow::kNone) add_file(hasher, matte.shape.track);
+        if (matte.shape.follow != ShapeFollow::kNone) add_file(hasher, matte.shape.track, files);
     }
     add_settings(hasher, matte);
     return {};
 }
 
-Status add_mattes(Hasher& hasher, const Region& region, const PaintedMattes& painted) {
-    WEFT_CHECK_OK(add_matte(hasher, *region.matte, painted));
+Status add_mattes(Hasher& hasher, const Region& region, const Files& files) {
+    WEFT_CHECK_OK(add_matte(hasher, *region.matte, files));
     for (const MatteSource& holdout : *region.holdouts)
-        WEFT_CHECK_OK(add_matte(hasher, holdout, painted));
+        WEFT_CHECK_OK(add_matte(hasher, holdout, files));
     return {};
 }
 
@@ -105,7 +109,7 @@ void add_plate(Hasher& hasher, const Shot& shot) {
     hasher.value(kAnalysisVersion)
         .text(shot.project.plate.layer)
         .value(shot.project.plate.movie_start);
-    add_plate_stamps(hasher, *shot.plate);
+    add_plate_ids(hasher, shot);
     hasher.text(shot.spaces.plate.name)
         .value(static_cast<int>(shot.project.plate.missing))
         .value(static_cast<int>(shot.plan.quality));
@@ -115,12 +119,12 @@ void add_plate(Hasher& hasher, const Shot& shot) {
 // of it.
 Expected<RegionKeys::Layer> matte_keys(const Shot& shot, const MatteSource& matte,
                                        const std::vector<MatteSource>& in_front,
-                                       const PaintedMattes& painted) {
+                                       const Files& files) {
     Hasher common;
     add_plate(common, shot);
     add_settings(common.text("matte"), matte);
     for (const MatteSource& holdout : in_front)
-        WEFT_CHECK_OK(add_matte(common, holdout, painted));
+        WEFT_CHECK_OK(add_matte(common, holdout, files));
     const Hash128 same = common.finish();
     RegionKeys::Layer out;
     const auto first = matte.keyframes.begin(), end = matte.keyframes.end();
@@ -131,28 +135,27 @@ Expected<RegionKeys::Layer> matte_keys(const Shot& shot, const MatteSource& matt
         if (after != first) {
             const auto& [frame, key] = *std::prev(after);
             out.keyframes.push_back(frame);
-            add_painted(hasher, frame, key.path, painted);
+            add_painted(hasher, frame, key.path, files);
             from = frame;
         }
         if (after != end) {
-            add_painted(hasher, after->first, after->second.path, painted);
+            add_painted(hasher, after->first, after->second.path, files);
             to = after->first;
         }
-        add_confirmed(hasher, matte, from, to, painted);
+        add_confirmed(hasher, matte, from, to, files);
         out.stretches.push_back(hasher.finish().hex());
         if (after == end) return out;
     }
 }
 
 Expected<std::map<int, RegionKeys::Layer>> all_matte_keys(const Shot& shot, const Region& region,
-                                                          const PaintedMattes& painted) {
+                                                          const Files& files) {
     std::map<int, RegionKeys::Layer> out;
     const auto add = [&](int layer, const MatteSource& matte) -> Status {
         if (matte.keyframes.empty()) return {};
         const bool holdout = layer > 0;
-        WEFT_TRY(keys,
-                 matte_keys(shot, matte, holdout ? std::vector<MatteSource>() : *region.holdouts,
-                            painted));
+        WEFT_TRY(keys, matte_keys(shot, matte,
+                                  holdout ? std::vector<MatteSource>() : *region.holdouts, files));
         out[layer] = std::move(keys);
         return {};
     };
@@ -165,15 +168,14 @@ Expected<std::map<int, RegionKeys::Layer>> all_matte_keys(const Shot& shot, cons
     return out;
 }
 
-Expected<std::string> surface_key(const Shot& shot, std::size_t index,
-                                  const PaintedMattes& painted) {
+Expected<std::string> surface_key(const Shot& shot, std::size_t index, const Files& files) {
     const RegionPlan& plan = shot.plan.regions[index];
     const Region& region = *shot.project.regions[shot.region_index[index]];
     Hasher hasher;
     add_plate(hasher, shot);
     hasher.text(shot.spaces.working.name);
-    WEFT_CHECK_OK(add_mattes(hasher, region, painted));
-    WEFT_CHECK_OK(add_pattern(hasher, region.motion.files));
+    WEFT_CHECK_OK(add_mattes(hasher, region, files));
+    WEFT_CHECK_OK(add_pattern(hasher, region.motion.files, files));
     hasher.value(plan.motion_forward)
         .value(static_cast<int>(region.motion.convention))
         .text(region.motion.layer);
@@ -219,8 +221,7 @@ Expected<std::string> surface_key(const Shot& shot, std::size_t index,
 
 // Of what is followed around zones: apart from the surface, which does not depend on it.
 Expected<std::map<int, std::string>> around_keys(const Shot& shot, const Region& region,
-                                                 const std::string& surface,
-                                                 const PaintedMattes& painted) {
+                                                 const std::string& surface, const Files& files) {
     std::map<int, std::string> out;
     for (int zone = 0; zone < static_cast<int>(region.zones->size()); ++zone) {
         const Zone& of = (*region.zones)[static_cast<std::size_t>(zone)];
@@ -228,7 +229,7 @@ Expected<std::map<int, std::string>> around_keys(const Shot& shot, const Region&
         Hasher hasher;
         add_plate(hasher, shot);
         hasher.text("around").text(surface);
-        WEFT_CHECK_OK(add_matte(hasher, of.matte, painted));
+        WEFT_CHECK_OK(add_matte(hasher, of.matte, files));
         out[zone_layer(zone)] = hasher.finish().hex();
     }
     return out;
@@ -236,21 +237,22 @@ Expected<std::map<int, std::string>> around_keys(const Shot& shot, const Region&
 
 // Apart from the rest, so that another form does not make the surface be followed again.
 Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::string& surface,
-                               const PaintedMattes& painted) {
+                               const Files& files) {
     const RegionPlan& plan = shot.plan.regions[index];
     if (plan.form_from == RegionPlan::FormFrom::kNothing) return surface;
     const Region& region = *shot.project.regions[shot.region_index[index]];
     Hasher hasher;
     hasher.text("form").value(kFormVersion).text(surface);
     add_form_settings(hasher, region);
-    if (reads_form(plan.form_from)) WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern));
+    if (reads_form(plan.form_from))
+        WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern, files));
     for (const int frame : plan.form_evidence)
         hasher.value(frame);
     // The regions of a shot find its lens together.
     for (std::size_t k = 0; plan.shares_lens() && k < shot.plan.regions.size(); ++k) {
         const RegionPlan& other = shot.plan.regions[k];
         if (k == index || !other.shares_lens()) continue;
-        WEFT_TRY(beside, surface_key(shot, k, painted));
+        WEFT_TRY(beside, surface_key(shot, k, files));
         hasher.text(beside);
         for (const int frame : other.form_evidence)
             hasher.value(frame);
@@ -259,26 +261,26 @@ Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::s
 }
 
 // Apart from the rest too. What is read on a frame does not depend on the frames to be rendered.
-Expected<std::string> focus_key(const Shot& shot, std::size_t index, const PaintedMattes& painted) {
+Expected<std::string> focus_key(const Shot& shot, std::size_t index, const Files& files) {
     const RegionPlan& plan = shot.plan.regions[index];
     const Region& region = *shot.project.regions[shot.region_index[index]];
     Hasher hasher;
     add_plate(hasher, shot);
     hasher.text("focus").value(kFocusVersion).text(shot.spaces.working.name);
-    WEFT_CHECK_OK(add_mattes(hasher, region, painted));
-    WEFT_CHECK_OK(add_pattern(hasher, region.finish.depth));
+    WEFT_CHECK_OK(add_mattes(hasher, region, files));
+    WEFT_CHECK_OK(add_pattern(hasher, region.finish.depth, files));
     hasher.text(region.finish.depth_layer);
     // The light, whose edges do not count.
     const bool passes = plan.light_pass != RegionPlan::Pass::kNone && plan.lights();
     hasher.value(plan.estimates_light()).value(passes).value(plan.detail);
     if (passes) {
-        WEFT_CHECK_OK(add_pattern(hasher, region.light.albedo));
-        WEFT_CHECK_OK(add_pattern(hasher, region.light.lighting));
+        WEFT_CHECK_OK(add_pattern(hasher, region.light.albedo, files));
+        WEFT_CHECK_OK(add_pattern(hasher, region.light.lighting, files));
         hasher.text(region.light.pass_layer);
     }
     for (const Zone& zone : *region.zones) {
         if (zone.kind != ZoneKind::kDetail) continue;
-        WEFT_CHECK_OK(add_matte(hasher, zone.matte, painted));
+        WEFT_CHECK_OK(add_matte(hasher, zone.matte, files));
         hasher.value(zone.value);
         for (const NumberKey& key : zone.value_keys.keys) {
             hasher.value(key.frame).value(static_cast<int>(key.after));
@@ -336,12 +338,13 @@ void RegionKeys::adopt(
 
 Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
                                  const PaintedMattes& painted) {
-    WEFT_TRY(surface, surface_key(shot, index, painted));
+    const Files files{*shot.files, painted};
+    WEFT_TRY(surface, surface_key(shot, index, files));
     const Region& region = *shot.project.regions[shot.region_index[index]];
-    WEFT_TRY(form, form_key(shot, index, surface, painted));
-    WEFT_TRY(focus, focus_key(shot, index, painted));
-    WEFT_TRY(around, around_keys(shot, region, surface, painted));
-    WEFT_TRY(mattes, all_matte_keys(shot, region, painted));
+    WEFT_TRY(form, form_key(shot, index, surface, files));
+    WEFT_TRY(focus, focus_key(shot, index, files));
+    WEFT_TRY(around, around_keys(shot, region, surface, files));
+    WEFT_TRY(mattes, all_matte_keys(shot, region, files));
     return RegionKeys{std::move(surface), std::move(form), std::move(focus), std::move(mattes),
                       std::move(around)};
 }

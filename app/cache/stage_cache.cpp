@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increase this when the result of the estimate changes.
-constexpr int kMotionVersion = 2;
+constexpr int kMotionVersion = 3;
 
 class DiskStages final : public StageStore {
   public:
@@ -66,10 +66,10 @@ static_assert(std::is_trivially_copyable_v<PlaneStats>);
 
 }  // namespace
 
-void add_plate_stamps(Hasher& hasher, const FrameReader& plate) {
-    for (const int frame : plate.frames()) {
-        const auto stamp = plate.stamp(frame);
-        const Hash128 value = stamp ? *stamp : Hash128{};
+void add_plate_ids(Hasher& hasher, const Shot& shot) {
+    for (const int frame : shot.plate->frames()) {
+        const auto id = shot.files->id(shot.plate->path_of(frame));
+        const Hash128 value = id ? *id : Hash128{};
         hasher.value(frame).value(value.high).value(value.low);
     }
 }
@@ -79,7 +79,7 @@ std::shared_ptr<StageStore> open_stage_cache(const Shot& shot, const std::string
     hasher.value(kMotionVersion)
         .text(shot.project.plate.layer)
         .value(shot.project.plate.movie_start);
-    add_plate_stamps(hasher, *shot.plate);
+    add_plate_ids(hasher, shot);
     hasher.text(shot.spaces.plate.name).value(static_cast<int>(shot.plan.quality));
     const fs::path planes = fs::path(root) / "planes";
     const fs::path motion = fs::path(root) / "motion" / hasher.finish().hex();

@@ -9,12 +9,12 @@
 namespace weft {
 
 /// Caches planes and motion below `root` (planes/HASH, motion/HASH/FRAME-FRAME). The hash of motion
-/// covers the plate's files, its colour space and the quality.
+/// covers the ids of the plate's files, its colour space and the quality.
 [[nodiscard]] std::shared_ptr<StageStore> open_stage_cache(const Shot& shot,
                                                            const std::string& root);
 
-/// Adds all frames of a plate with their stamps. A missing file has a stamp of its own; the code
-/// that reads it reports the error.
-void add_plate_stamps(Hasher& hasher, const FrameReader& plate);
+/// Adds the id of each frame's file of the shot's plate (Fingerprints::id()). A file that cannot be
+/// read has a value of its own; the code that needs it reports the error.
+void add_plate_ids(Hasher& hasher, const Shot& shot);
 
 }  // namespace weft

@@ -29,8 +29,9 @@ struct RunOptions {
     std::vector<RootMap> maps;
     JobStage stage = JobStage::kAll;
     std::int64_t memory_bytes = 0;  ///< 0: no limit.
-    std::string settings;           ///< As JobSpec has it.
-    std::string project_file;       ///< Project file that the outputs belong to; empty: none.
+    std::string settings, inputs;   ///< As JobSpec has them.
+    std::vector<int> inputs_of;
+    std::string project_file;  ///< Project file that the outputs belong to; empty: none.
     NamedByUser by_user;
     std::string recipe;       ///< Path of the recipe file.
     std::string output_root;  ///< Folder that all writes must stay in; empty: no restriction.

@@ -34,6 +34,8 @@ JobSpec spec_of(const Project& project, const RunOptions& run) {
     spec.memory_bytes = run.memory_bytes;
     spec.stage = run.stage;
     spec.settings = run.settings;
+    spec.inputs = run.inputs;
+    spec.inputs_of = run.inputs_of;
     spec.limits = {run.output_root, run.reads, run.roots};
     spec.report = run.report;
     // A single stage writes no recipe, and what it makes only.

@@ -134,7 +134,7 @@ void add_run_flags(CLI::App& command, RunOptions& run, bool renders) {
     command.add_flag("--skip-existing", run.skip_existing,
                      "Keep existing frames that are readable");
     command.add_flag("--resume", run.resume,
-                     "Keep existing frames that were rendered with the same settings");
+                     "Keep existing frames of the same settings and inputs");
     add_map_flag(command, run);
     add_stage_flag(command, run);
     command.add_flag("--version-up", run.version_up,

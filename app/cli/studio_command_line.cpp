@@ -69,7 +69,7 @@ void add_submit(CLI::App& app, CommandResult& result) {
     command->add_option("--db", options->library, "Library of the textures 'db:ID'")
         ->type_name("FILE");
     command->add_flag("--resume", options->resume,
-                      "Keep existing frames that were rendered with the same settings");
+                      "Keep existing frames of the same settings and inputs");
     command->add_flag("--skip-existing", options->skip_existing,
                       "Keep existing frames that are readable");
     add_write_flags(*command, options->write);

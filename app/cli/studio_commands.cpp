@@ -143,7 +143,7 @@ Expected<std::vector<std::string>> write_job(const SubmitOptions& options, FarmE
                             is_farm_job((fs::path(options.folder) / "job.json").string()));
     WEFT_TRY(rule, write_rule(write, {options.project}, farm.project));
     farm.rule = rule;
-    return write_farm_job(farm, *checked.shot);
+    return write_farm_job(farm, checked.shot);
 }
 
 }  // namespace
@@ -177,6 +177,8 @@ CommandResult task_command(const std::string& job, const std::string& stage, int
     run.threads = task.threads;
     run.stage = task.stage;
     run.settings = task.settings;
+    run.inputs = task.inputs;
+    run.inputs_of = task.inputs_of;
     run.overwrite = task.existing == ExistingFrames::kOverwrite;
     run.skip_existing = task.existing == ExistingFrames::kSkip;
     run.resume = task.existing == ExistingFrames::kResume;

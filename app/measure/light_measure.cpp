@@ -104,6 +104,7 @@ Expected<std::shared_ptr<LightMeter>> LightMeter::open(const Project& project,
     const std::shared_ptr<LightMeter> out(new LightMeter());
     OpenShotOptions open;
     open.textures = false;
+    open.files = open_fingerprints(cache);
     WEFT_TRY(shot, open_shot(without_passes(project, frames), open));
     out->shot_ = shot;
     WEFT_TRY(store, open_analysis_cache(*shot, cache, warnings));

@@ -60,6 +60,7 @@ void MatteCarrier::work(const Asked& asked, const CancelToken& cancel) {
     options.textures = false;
     options.painted = asked.painted;
     options.cache_bytes = kCacheBytes;
+    options.files = files_;
     if (before && before->shot->project.plate == asked.project.plate)
         options.plate = before->shot->plate;
     const auto shot = open_shot(asked.project, options);

@@ -19,7 +19,9 @@ namespace weft {
 /// newest call wins. carry(), pause(), resume() and clear() are for one thread and never wait.
 class MatteCarrier {
   public:
-    explicit MatteCarrier(AnalysisCacheOptions cache) : cache_(std::move(cache)) {}
+    /// `files`: as OpenShotOptions has it.
+    explicit MatteCarrier(AnalysisCacheOptions cache, std::shared_ptr<Fingerprints> files = nullptr)
+        : cache_(std::move(cache)), files_(std::move(files)) {}
 
     /// Carries the painted mattes of the enabled regions; `project` as in PreviewRequest, except
     /// that textures are not needed. Mattes between the keyframes around `frame` come first.
@@ -51,6 +53,7 @@ class MatteCarrier {
     void work(const Asked& asked, const CancelToken& cancel);
 
     const AnalysisCacheOptions cache_;
+    const std::shared_ptr<Fingerprints> files_;
     std::shared_ptr<const Asked> asked_;  // null: nothing to carry
     bool paused_ = false;
     std::atomic<std::uint64_t> changes_{0};

@@ -184,6 +184,7 @@ struct Preview::Impl {
     }
 
     const AnalysisCacheOptions cache;
+    const std::shared_ptr<Fingerprints> files;
     const std::string texture_library;
     const std::size_t budget_bytes;
     const std::shared_ptr<const Backend> backend;

@@ -46,10 +46,11 @@ std::map<RegionId, std::string> samples_of(const Shot& shot) {
 
 Preview::Impl::Impl(AnalysisCacheOptions cache_options, std::string library, std::size_t budget)
     : cache(std::move(cache_options)),
+      files(open_fingerprints(cache)),
       texture_library(std::move(library)),
       budget_bytes(budget),
       backend(make_cpu_backend()),
-      carrier(cache) {
+      carrier(cache, files) {
     renderer = std::thread([this] { render_loop(); });
     analyser = std::thread([this] { analyse_loop(); });
 }
@@ -178,6 +179,7 @@ Expected<std::shared_ptr<const Shot>> Preview::Impl::open(const Project& project
                                                           const PaintedMattes& painted) {
     OpenShotOptions options;
     options.painted = painted;
+    options.files = files;
     options.texture_library = texture_library;
     options.cache_bytes = std::size_t{192} << 20;
     options.visibility = visibility;

@@ -7,6 +7,7 @@
 #include "app/base/trust.h"
 #include "app/project/codec/project_json.h"
 #include "app/render/farm_engines.h"
+#include "app/render/input_hashes.h"
 #include "app/render/recipe.h"
 #include "app/render/report.h"
 #include "engine/core/frame_range.h"
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "weft.farm/2";
+constexpr const char* kSchema = "weft.farm/3";
 
 std::vector<std::string> in_chunks(const std::vector<int>& frames, int chunk) {
     std::vector<std::string> out;
@@ -154,7 +155,9 @@ Project frozen_project(const Project& project, const Shot& shot) {
     return out;
 }
 
-Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options, const Shot& shot) {
+Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options,
+                                                  const std::shared_ptr<const Shot>& opened) {
+    const Shot& shot = *opened;
     std::error_code error;
     const fs::path folder = fs::absolute(options.folder, error);
     WEFT_CHECK_OK(check_plain_folder(options.engine, folder.string()));
@@ -168,6 +171,7 @@ Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options, co
     for (const FarmStage& stage : job.stages)
         stages.push_back({{"name", stage.name}, {"frames", stage.frames}});
     WEFT_TRY(snapshot, project_to_json(frozen_project(options.project, shot)));
+    const InputHashes inputs(opened, shot.plan.frames);
     const std::string hash = hash_of(snapshot);
     // Named by its content, so that no job replaces the snapshot of another.
     const std::string snapshot_name = "project-" + hash + ".weft";
@@ -180,6 +184,7 @@ Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options, co
         {"project", absolute(options.project_file)},
         {"snapshot", {{"file", snapshot_name}, {"hash", hash}}},
         {"settings", settings_hash(shot)},
+        {"inputs", inputs.text(shot.plan.frames)},
         {"cache", options.cache.empty() ? (folder / "cache").string() : absolute(options.cache)},
         {"library", absolute(options.library)},
         {"threads", options.threads},
@@ -200,6 +205,8 @@ Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options, co
         WEFT_CHECK_OK(write_file_atomically(path, text, options.rule));
         written.push_back(path);
     }
+    // So that not every task reads all inputs to compare them.
+    shot.files->save_to(fingerprint_folder(json.at("cache").get<std::string>()));
     return written;
 }
 
@@ -275,6 +282,9 @@ Expected<FarmTask> read_farm_task(const std::string& path, const std::string& st
         WEFT_TRY(project, read_snapshot(fs::path(path).parent_path(), json.at("snapshot")));
         task.project = std::move(project);
         task.settings = json.at("settings").get<std::string>();
+        task.inputs = json.at("inputs").get<std::string>();
+        WEFT_TRY(frames, parse_frame_list(task.project.settings.frames));
+        task.inputs_of = std::move(frames);
         task.cache = json.at("cache").get<std::string>();
         task.library = json.at("library").get<std::string>();
         task.threads = json.at("threads").get<int>();

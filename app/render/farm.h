@@ -46,16 +46,18 @@ struct FarmStage {
 /// Writes a snapshot of the project, job.json (read by `weft task`), and the farm's own files
 /// (docs/FARM.md). Returns their paths. File names occur only in the first two, never in scripts.
 /// Errors: Usage (the folder holds another job); those of writing.
-[[nodiscard]] Expected<std::vector<std::string>> write_farm_job(const FarmOptions& options,
-                                                                const Shot& shot);
+[[nodiscard]] Expected<std::vector<std::string>> write_farm_job(
+    const FarmOptions& options, const std::shared_ptr<const Shot>& shot);
 
 /// Returns true for a job.json of 'weft submit', of any version.
 [[nodiscard]] bool is_farm_job(const std::string& path);
 
 /// What a task of a job file runs.
 struct FarmTask {
-    Project project;       ///< The snapshot, with the frames of this task.
-    std::string settings;  ///< Required settings_hash(): that of the submitted job.
+    Project project;             ///< The snapshot, with the frames of this task.
+    std::string settings;        ///< Required settings_hash(): that of the submitted job.
+    std::string inputs;          ///< Required InputHashes::text() of all frames of the job,
+    std::vector<int> inputs_of;  ///< which these are.
     std::string cache, library;
     /// Folders that the task may write to, besides the cache.
     std::vector<std::string> output_roots;

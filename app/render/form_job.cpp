@@ -40,6 +40,7 @@ Expected<Found> find(const JobSpec& spec, const CancelToken& cancel, const Progr
     OpenShotOptions options;
     options.textures = false;
     options.watch_inputs = true;
+    options.files = open_fingerprints(spec.cache);
     WEFT_TRY(shot, open_shot(spec.project, options));
     if (shot->plan.regions.empty()) {
         return fail(ErrorCode::kUsage, "The project has no region. Add one with a matte" +

@@ -24,18 +24,19 @@ using Clock = std::chrono::steady_clock;
 Status write_frame(const JobSetup& setup, int frame, const std::string& path,
                    const RenderedFrame& rendered, const ImageF1& alpha) {
     const Shot& shot = *setup.shot;
+    const WriteOptions write = setup.write_of(frame);
     std::vector<ExrLayer> layers;
     if (rendered.layers) layers = exr_layers(*rendered.layers, shot.project.output.layers);
     if (setup.layer_pattern) {
         const ExrFrame apart{rendered.pixels, {}, {}, {}, {}, std::move(layers)};
-        WriteOptions half = setup.write;
+        WriteOptions half = write;
         half.depth = PixelDepth::kHalf;
         WEFT_CHECK_OK(write_exr(setup.layer_pattern->path_for(frame), apart, half));
         layers.clear();
     }
     const std::string source = shot.plate->path_of(frame);
     if (!is_exr(shot.project.output.path)) {
-        WriteOptions kept = setup.write;
+        WriteOptions kept = write;
         kept.source = source;
         return write_image(path, rendered.pixels, alpha, kept);
     }
@@ -46,7 +47,7 @@ Status write_frame(const JobSetup& setup, int frame, const std::string& path,
         exr.source_layer = layer;
         if (shot.spaces.plate == shot.spaces.out) exr.touched = rendered.touched;
     }
-    return write_exr(path, exr, setup.write);
+    return write_exr(path, exr, write);
 }
 
 // The replacement of a missing frame where it is to be black.
@@ -65,14 +66,15 @@ Status write_maps(const FrameInputs& in, int frame) {
         WEFT_TRY(found, st_maps(*shot.source, in.plan, in.store, shot.plate->shown_frame(frame)));
         maps = std::move(found);
     }
-    return write_st_maps(in.setup.st_map_pattern->path_for(frame), maps, in.setup.write);
+    return write_st_maps(in.setup.st_map_pattern->path_for(frame), maps, in.setup.write_of(frame));
 }
 
 Status make_frame(const FrameInputs& in, FrameResult& result) {
     const Shot& shot = *in.setup.shot;
     WEFT_CHECK_OK(write_maps(in, result.frame));
     if (is_black(shot, result.frame))
-        return write_image(result.path, ImageF3(shot.plate->size()), {}, in.setup.write);
+        return write_image(result.path, ImageF3(shot.plate->size()), {},
+                           in.setup.write_of(result.frame));
     // A held frame equals the frame it repeats, grain included.
     const int shown = shot.plate->shown_frame(result.frame);
     WEFT_TRY(rendered,

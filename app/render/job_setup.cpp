@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/render/existing_frames.h"
+#include "app/render/input_hashes.h"
 #include "app/render/job_frames.h"
 #include "app/render/memory_plan.h"
 #include "app/render/motion_check.h"
@@ -42,6 +43,7 @@ Expected<std::shared_ptr<const Shot>> open_job_shot(const JobSpec& spec,
     open.texture_library = spec.texture_library;
     open.watch_inputs = true;
     open.leave_out = leave_out;
+    open.files = open_fingerprints(spec.cache);
     if (spec.memory_bytes > 0) {
         open.cache_bytes =
             std::min(open.cache_bytes, static_cast<std::size_t>(spec.memory_bytes) / kCacheShare);
@@ -87,6 +89,24 @@ Status check_settings(const JobSpec& spec, const JobSetup& setup) {
     return fail(ErrorCode::kUnreadable,
                 "A texture, a colour space or a reference frame is not what it was when the job "
                 "was submitted: frames of one job would differ. Submit again.");
+}
+
+// What the frames are made from, and whether that is what the job was submitted with.
+Status know_inputs(const JobSpec& spec, const std::vector<int>& leave_out, JobSetup& setup) {
+    std::vector<int> frames = setup.plan.frames;
+    frames.insert(frames.end(), spec.inputs_of.begin(), spec.inputs_of.end());
+    const InputHashes inputs(setup.shot, frames);
+    for (const int frame : setup.plan.frames)
+        setup.inputs[frame] = inputs.text(frame);
+    // What is left out on a second attempt was compared on the first.
+    if (spec.inputs.empty() || !leave_out.empty()) return {};
+    const std::string now = inputs.text(spec.inputs_of);
+    if (now == spec.inputs) return {};
+    std::string changed;
+    for (const std::string& what : changed_inputs(spec.inputs, now))
+        changed += (changed.empty() ? "" : ", ") + what;
+    return fail(ErrorCode::kUnreadable, "An input changed since the job was submitted (" + changed +
+                                            "): frames of one job would differ. Submit again.");
 }
 
 // Layers go into the output if it is EXR, otherwise into separate files.
@@ -174,10 +194,14 @@ Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folder
     setup.movie_rule = rules.movie;
     setup.plane_rule = rules.plane;
     WEFT_TRY(kept, frames_to_keep(setup.pattern, setup.plan.frames, size, existing_frames(spec),
-                                  setup.write.metadata));
+                                  {setup.write.metadata, setup.inputs}));
+    // The encoder renders nothing: it refuses what does not fit.
+    if (spec.stage != JobStage::kEncode)
+        setup.result.warnings.insert(setup.result.warnings.end(), kept.notes.begin(),
+                                     kept.notes.end());
     std::vector<int> to_render;
     for (const int frame : setup.plan.frames) {
-        const bool skip = std::binary_search(kept.begin(), kept.end(), frame);
+        const bool skip = std::binary_search(kept.frames.begin(), kept.frames.end(), frame);
         setup.result.frames.push_back({frame, setup.pattern.path_for(frame), 0, skip, 0, 0});
         if (!skip) to_render.push_back(frame);
     }
@@ -189,6 +213,13 @@ Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folder
 
 }  // namespace
 
+WriteOptions JobSetup::write_of(int frame) const {
+    WriteOptions out = write;
+    if (const auto of_frame = inputs.find(frame); of_frame != inputs.end())
+        out.metadata.emplace_back("weft:inputs", of_frame->second);
+    return out;
+}
+
 Expected<JobSetup> set_up_job(const JobSpec& spec, const std::vector<int>& leave_out,
                               std::shared_ptr<const Shot>& shot, OutputFolders folders) {
     use_threads(spec.threads);
@@ -199,6 +230,7 @@ Expected<JobSetup> set_up_job(const JobSpec& spec, const std::vector<int>& leave
     setup.shot = shot = std::move(opened);
     WEFT_CHECK_OK(take_shot(spec, leave_out, setup));
     WEFT_CHECK_OK(check_settings(spec, setup));
+    WEFT_CHECK_OK(know_inputs(spec, leave_out, setup));
     WEFT_CHECK_OK(choose_format(spec, setup));
     WEFT_CHECK_OK(check_existing(spec, setup, folders));
     if (spec.stage != JobStage::kEncode && !setup.plan.frames.empty()) {

@@ -1,8 +1,10 @@
 #pragma once
 // Prepares a render. All errors of the project and its files are found here, before any work.
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/render/output_plan.h"
@@ -19,7 +21,10 @@ struct JobSetup {
     SequencePattern pattern = SequencePattern::single("");
     /// Pattern of separate EXR files for the layers.
     std::optional<SequencePattern> layer_pattern;
-    WriteOptions write;
+    WriteOptions write;  ///< Of all frames; write_of() has what each adds.
+    /// "weft:inputs" of each frame of the shot to render, kept or not.
+    std::map<int, std::string> inputs;
+    [[nodiscard]] WriteOptions write_of(int frame) const;
     std::optional<SequencePattern> st_map_pattern;  ///< Pattern of the ST-maps.
     WriteRule movie_rule, plane_rule;
     std::size_t frames_at_once = 1;  ///< Frames rendered in parallel, limited by memory.

@@ -50,6 +50,7 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
     OpenShotOptions options;
     options.textures = false;
     options.watch_inputs = true;
+    options.files = open_fingerprints(spec.cache);
     WEFT_TRY(shot, open_shot(spec.project, options));
     const ShotPlan& plan = shot->plan;
     if (plan.regions.size() != 1) {

@@ -119,7 +119,7 @@ Expected<std::string> recipe_json(const Shot& shot, const JobResult& result) {
     Json inputs = Json::array(), frames = Json::array();
     WEFT_TRY(files, input_files(shot));
     for (const std::string& path : files) {
-        WEFT_TRY(hash, hash_of_contents(path));
+        WEFT_TRY(hash, shot.files->contents(path));
         inputs.push_back({{"path", fs::absolute(path, ignored).string()}, {"hash", hash.hex()}});
     }
     for (const FrameResult& f : result.frames) {

@@ -17,7 +17,8 @@ namespace weft {
 [[nodiscard]] std::string settings_hash(const Shot& shot);
 
 /// Names and values for a frame's header: "weft:version", "weft:settings", "weft:backend",
-/// "weft:seed", "weft:textures", "weft:licences". Equal for all frames of a render.
+/// "weft:seed", "weft:textures", "weft:licences". Equal for all frames of a render; a frame has
+/// "weft:inputs" besides (input_hashes.h).
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Metadata recipe_metadata(const Shot& shot, const std::string& backend);
 

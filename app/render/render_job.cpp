@@ -156,7 +156,7 @@ Status plane_stage(JobRun& job, std::optional<PlanesAhead>& planes) {
     if (job.spec.stage == JobStage::kEncode) {
         return fail(ErrorCode::kMissingFrames,
                     "The movie needs all frames, and " + frames_text(job.plan.frames) +
-                        " of them are missing or of other settings. Render them first.");
+                        " of them are missing or of other settings or inputs. Render them first.");
     }
     for (std::size_t k = 0; k < job.plan.regions.size(); ++k) {
         warn_of_samples(job, k);

@@ -22,7 +22,7 @@ enum class ExistingFrames {
     kRefuse,  ///< Stop before rendering.
     kOverwrite,
     kSkip,   ///< Keep frames that are readable and have the plate's size; render the others.
-    kResume  ///< Keep those of them that were rendered with the same settings.
+    kResume  ///< Keep those of them that were rendered with the same settings from the same inputs.
 };
 
 /// A stage of a render, for machines that share it. Each stage reads the earlier stages' results
@@ -58,6 +58,10 @@ struct JobSpec {
     std::int64_t memory_bytes = 0;  ///< Memory limit; 0: none.
     /// Required settings_hash() of a job that other machines share; empty: any.
     std::string settings;
+    /// Required InputHashes::text() of its frames `inputs_of`, which may be more than this run
+    /// renders; empty: any.
+    std::string inputs;
+    std::vector<int> inputs_of;
     WriteLimits limits;
     std::string plane;    ///< Picture of the texture plane to write (plane_file.h); empty: none.
     std::string st_maps;  ///< Pattern of ST-maps to write (st_map_files.h); empty: none.

@@ -1,7 +1,5 @@
 #include "app/shot/input_watch.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <map>
 #include <mutex>
@@ -14,31 +12,13 @@
 namespace weft {
 namespace {
 
-// Identifies a file's state without reading it.
-struct Stamp {
-    std::int64_t bytes = 0, modified_ns = 0, changed_ns = 0;
-    std::uint64_t device = 0, inode = 0;
-    bool operator==(const Stamp&) const = default;
-
-    [[nodiscard]] bool same_but_for_rights(const Stamp& other) const {
-        return std::tie(bytes, modified_ns, device, inode) ==
-               std::tie(other.bytes, other.modified_ns, other.device, other.inode);
-    }
-};
-
-std::int64_t nanoseconds(const timespec& time) {
-    return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
-}
-
-std::optional<Stamp> stamp_of(const std::string& path) {
-    struct stat found {};
-    if (stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
-    return Stamp{found.st_size, nanoseconds(found.st_mtim), nanoseconds(found.st_ctim),
-                 found.st_dev, found.st_ino};
+bool same_but_for_rights(const FileStamp& a, const FileStamp& b) {
+    return std::tie(a.bytes, a.modified_ns, a.device, a.inode) ==
+           std::tie(b.bytes, b.modified_ns, b.device, b.inode);
 }
 
 struct Watched {
-    Stamp stamp;  // state when the run first relied on it
+    FileStamp stamp;  // state when the run first relied on it
     bool read = false;
     bool changed_before_read = false;
     std::optional<Hash128> hash;  // hash at the first read
@@ -49,7 +29,7 @@ bool is_changed(const std::string& path, const Watched& watched) {
     const auto now = stamp_of(path);
     if (!now || now->bytes != watched.stamp.bytes) return true;
     if (*now == watched.stamp) return false;
-    if (!watched.hash) return !now->same_but_for_rights(watched.stamp);
+    if (!watched.hash) return !same_but_for_rights(*now, watched.stamp);
     const auto hash = hash_of_contents(path);
     return !hash || *hash != *watched.hash;
 }
@@ -57,11 +37,14 @@ bool is_changed(const std::string& path, const Watched& watched) {
 }  // namespace
 
 struct InputWatch::State {
+    std::shared_ptr<Fingerprints> known;  // may be null
     mutable std::mutex mutex;
     std::map<std::string, Watched> files;
 };
 
-InputWatch::InputWatch() : state_(std::make_unique<State>()) {}
+InputWatch::InputWatch(std::shared_ptr<Fingerprints> files) : state_(std::make_unique<State>()) {
+    state_->known = std::move(files);
+}
 InputWatch::~InputWatch() = default;
 
 void InputWatch::relied_on(const std::string& path) {
@@ -80,13 +63,13 @@ void InputWatch::before_read(const std::string& path) {
         const bool relied_on = known != state_->files.end();
         Watched& file = state_->files[path];
         // The original content is gone, so it cannot be compared.
-        file.changed_before_read = relied_on && !stamp->same_but_for_rights(file.stamp);
+        file.changed_before_read = relied_on && !same_but_for_rights(*stamp, file.stamp);
         file.stamp = *stamp;
         file.read = true;
-        if (stamp->bytes > kLargestHashed) return;
+        if (stamp->bytes > kLargestHashed_bytes) return;
     }
     // Without the lock: the stamp was taken before anyone reads.
-    const auto hash = hash_of_contents(path);
+    const auto hash = state_->known ? state_->known->contents(path) : hash_of_contents(path);
     const std::lock_guard lock(state_->mutex);
     if (hash) state_->files[path].hash = *hash;
 }

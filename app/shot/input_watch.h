@@ -6,19 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "app/shot/fingerprints.h"
 #include "engine/core/error.h"
 
 namespace weft {
 
-/// Records the state of each file when the run first relies on it. Thread-safe. Costs one stat and
-/// one pass over the bytes per file; files above kLargestHashed are compared by size, time and
-/// inode only.
+/// Records the state of each file when the run first relies on it. Thread-safe. Costs one stat and,
+/// where they are not known, one pass over the bytes per file; files above kLargestHashed_bytes are
+/// compared by size, time and inode only.
 class InputWatch {
   public:
-    InputWatch();
+    /// `files` spares reading what is known; null: every file is read.
+    explicit InputWatch(std::shared_ptr<Fingerprints> files = nullptr);
     ~InputWatch();
 
-    static constexpr std::int64_t kLargestHashed = 256ll << 20;
+    static constexpr std::uint64_t kLargestHashed_bytes = std::uint64_t{256} << 20;
 
     /// Records the file's size and time, used for a cache key; it may be read later. Missing and
     /// non-regular files are ignored.

@@ -39,7 +39,8 @@ class ShotOpener {
     ShotOpener(const Project& project, const OpenShotOptions& options) : options_(options) {
         shot_.project = project;
         shot_.painted = options.painted;
-        if (options.watch_inputs) shot_.inputs = std::make_shared<InputWatch>();
+        if (options.files) shot_.files = options.files;
+        if (options.watch_inputs) shot_.inputs = std::make_shared<InputWatch>(shot_.files);
     }
 
     Expected<std::shared_ptr<const Shot>> open() {
@@ -82,8 +83,7 @@ class ShotOpener {
             shot_.plate =
                 cached(with_missing_frames(reader, plate.missing, wanted), options_.cache_bytes);
         }
-        for (const std::string& w : shot_.plate->warnings())
-            shot_.warnings.push_back(w);
+        shot_.warnings = shot_.plate->warnings();
         const std::vector<LayerKind>& layers = shot_.project.output.layers;
         shot_.plan.layers = !layers.empty();
         shot_.plan.form_layers = std::any_of(layers.begin(), layers.end(), shows_form);

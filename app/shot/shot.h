@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/project/project.h"
+#include "app/shot/fingerprints.h"
 #include "app/shot/input_watch.h"
 #include "app/shot/painted_mattes.h"
 #include "app/shot/reference_choice.h"
@@ -58,7 +59,9 @@ struct Shot {
     std::vector<std::string> warnings;
     std::shared_ptr<CutWatch> cuts;      ///< Has examined every plate frame that was read.
     std::shared_ptr<InputWatch> inputs;  ///< Records every file that is read; null: disabled.
-    PaintedMattes painted;               ///< Mattes that are read from memory.
+    /// What is known of its files; never null.
+    std::shared_ptr<Fingerprints> files = std::make_shared<Fingerprints>();
+    PaintedMattes painted;  ///< Mattes that are read from memory.
 };
 
 /// The depth of the output: set by the user, or derived from the plate and the format.
@@ -73,6 +76,8 @@ struct OpenShotOptions {
     std::string texture_library;  ///< Library of textures "db:ID"; empty: the user's own.
     /// Visibility scores from another version of the shot; null: none.
     std::shared_ptr<VisibilityCache> visibility;
+    /// Becomes Shot::files; null: new ones that are not kept.
+    std::shared_ptr<Fingerprints> files;
     /// Painted mattes that may not be on the disk yet.
     PaintedMattes painted;
     /// The project's plate if it is already open; null: open it.

@@ -34,6 +34,16 @@ tl::unexpected<Error> system_fault(const std::string& name, int number) {
     return refused(name, std::generic_category().message(number), "Check the path and the disk.");
 }
 
+std::int64_t nanoseconds(const timespec& time) {
+    return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+}
+
+FileStamp stamp_from(const struct stat& status) {
+    return {static_cast<std::uint64_t>(status.st_size), nanoseconds(status.st_mtim),
+            nanoseconds(status.st_ctim), static_cast<std::uint64_t>(status.st_dev),
+            static_cast<std::uint64_t>(status.st_ino)};
+}
+
 // What stands where a file was expected.
 const char* other_kind(mode_t mode) {
     if (S_ISDIR(mode)) return "a folder";
@@ -71,6 +81,12 @@ Expected<std::string> read_all(const std::string& name, std::uint64_t limit_byte
 
 }  // namespace
 
+std::optional<FileStamp> stamp_of(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    return stamp_from(status);
+}
+
 Expected<InputFile> InputFile::open(const std::string& path, std::string_view what,
                                     std::uint64_t limit_bytes) {
     const std::string name = name_of(path, what);
@@ -88,10 +104,7 @@ Expected<InputFile> InputFile::open(const std::string& path, std::string_view wh
     InputFile file(descriptor, name, {});
     if (::fstat(descriptor, &status) != 0) return system_fault(name, errno);
     if (!S_ISREG(status.st_mode)) return not_a_file(status.st_mode);
-    file.stamp_ = {
-        static_cast<std::uint64_t>(status.st_size),
-        static_cast<std::int64_t>(status.st_mtim.tv_sec) * 1'000'000'000 + status.st_mtim.tv_nsec,
-        static_cast<std::uint64_t>(status.st_dev), static_cast<std::uint64_t>(status.st_ino)};
+    file.stamp_ = stamp_from(status);
     if (file.stamp_.bytes > limit_bytes) return too_large(name, limit_bytes);
     return file;
 }

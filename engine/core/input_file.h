@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,13 +18,19 @@ inline constexpr std::uint64_t kNoFileLimit = UINT64_MAX;
 /// For text that a person or a program wrote: projects, tracks, jobs, scripts, manifests.
 inline constexpr std::uint64_t kTextFileLimit_bytes = std::uint64_t{32} << 20;
 
-/// What tells whether a file is still the same.
+/// What tells, without reading it, whether a file is still the same.
 struct FileStamp {
     std::uint64_t bytes = 0;
-    std::int64_t modified_ns = 0;  ///< Since the epoch.
+    std::int64_t modified_ns = 0;  ///< Since the epoch; programs that copy files may set it.
+    /// When bytes, name, time or rights last changed. Only the system sets it.
+    std::int64_t changed_ns = 0;
     std::uint64_t device = 0, inode = 0;
     bool operator==(const FileStamp&) const = default;
 };
+
+/// The stamp of a regular file (a link to one counts), which is not opened; nothing for all else.
+/// Thread-safe.
+[[nodiscard]] std::optional<FileStamp> stamp_of(const std::string& path);
 
 /// Says that `path` is a regular file (a link to one counts) that may be read, for libraries which
 /// open files by name. `what` begins the message: "The track", "The plate frame"; empty: the path

@@ -71,7 +71,10 @@ ImageSpec spec_of(const Samples& samples, const WriteOptions& options, const std
         for (const auto& [name, text] : options.metadata)
             spec.attribute(name, text);
     } else if (!options.metadata.empty()) {
-        spec.attribute("Software", software_text(options.metadata));
+        // The field of a DPX ends after 100 characters.
+        const bool is_dpx = format == "dpx";
+        spec.attribute("Software", software_text(options.metadata, !is_dpx));
+        if (is_dpx) spec.attribute("DocumentName", inputs_text(options.metadata));
         spec.attribute("Copyright", copyright_text(options.metadata));
     }
     if (format == "jpeg") {

@@ -50,7 +50,7 @@ class FrameReader {
     /// Errors: MissingFrames (no such file), Unreadable (truncated, not an image, another size than
     /// the first frame); each message names the file and the remedy.
     [[nodiscard]] virtual Expected<PlateFrame> read(int frame) const = 0;
-    /// Changes whenever the frame's file may have changed (path, size, modification time in ns).
+    /// Changes whenever the frame's file may have changed (path, FileStamp).
     [[nodiscard]] virtual Expected<Hash128> stamp(int frame) const = 0;
     /// Problems of a plate that can nevertheless be read (a movie that claims more frames).
     [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }

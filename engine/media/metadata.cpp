@@ -19,14 +19,20 @@ std::string value_of(const NamedTexts& metadata, const std::string& name) {
 
 }  // namespace
 
-std::string software_text(const NamedTexts& metadata) {
+std::string software_text(const NamedTexts& metadata, bool with_inputs) {
     if (metadata.empty()) return {};
     const std::string plane = value_of(metadata, "weft:plane");
+    const std::string inputs = with_inputs ? value_of(metadata, "weft:inputs") : "";
     return "weft " + value_of(metadata, "weft:version") +
            " settings=" + value_of(metadata, "weft:settings") +
            " seed=" + value_of(metadata, "weft:seed") +
            " backend=" + value_of(metadata, "weft:backend") +
-           (plane.empty() ? "" : " plane=" + plane);
+           (plane.empty() ? "" : " plane=" + plane) + (inputs.empty() ? "" : " inputs=" + inputs);
+}
+
+std::string inputs_text(const NamedTexts& metadata) {
+    const std::string inputs = value_of(metadata, "weft:inputs");
+    return inputs.empty() ? inputs : "weft inputs=" + inputs;
 }
 
 std::string copyright_text(const NamedTexts& metadata) {
@@ -44,13 +50,17 @@ std::map<std::string, std::string> read_recipe_metadata(const std::string& path)
         const std::string name(entry.name().string());
         if (name.rfind(kPrefix, 0) == 0) out[name] = entry.get_string();
     }
-    std::istringstream software(std::string(input->spec().get_string_attribute("Software", "")));
-    std::string word, version;
-    if (out.empty() && software >> word && word == "weft" && software >> version) {
-        out["weft:version"] = version;
-        while (software >> word) {
+    if (!out.empty()) return out;
+    // DPX has no room for all of it in one field.
+    for (const char* field : {"Software", "DocumentName"}) {
+        std::istringstream text(std::string(input->spec().get_string_attribute(field, "")));
+        std::string word;
+        if (!(text >> word) || word != "weft") continue;
+        while (text >> word) {
             const std::size_t equals = word.find('=');
-            if (equals != std::string::npos)
+            if (equals == std::string::npos)
+                out["weft:version"] = word;
+            else
                 out[kPrefix + word.substr(0, equals)] = word.substr(equals + 1);
         }
     }

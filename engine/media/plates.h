@@ -27,7 +27,7 @@ namespace weft {
 [[nodiscard]] bool has_movie_extension(const std::string& path);
 [[nodiscard]] bool has_picture_extension(const std::string& path);
 
-/// Hash of a file's path, size and modification time, and of a number for frames of one file.
+/// Hash of a file's path and FileStamp, and of a number for frames of one file.
 [[nodiscard]] Expected<Hash128> stamp_file(const std::string& path, int frame);
 
 }  // namespace weft

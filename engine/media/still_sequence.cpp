@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "engine/core/input_file.h"
 #include "engine/core/text.h"
 #include "engine/media/plate_decode.h"
 #include "engine/media/plates.h"
@@ -80,10 +81,11 @@ Expected<Hash128> stamp_file(const std::string& path, int frame) {
     if (::stat(path.c_str(), &status) != 0) {
         return fail(ErrorCode::kMissingFrames, path + " is missing. Supply it again.");
     }
+    // What is not a regular file has none; reading it will be refused.
+    const FileStamp stamp = stamp_of(path).value_or(FileStamp());
     Hasher hasher;
-    hasher.text(path).value(frame).value(static_cast<std::int64_t>(status.st_size));
-    hasher.value(static_cast<std::int64_t>(status.st_mtim.tv_sec));
-    hasher.value(static_cast<std::int64_t>(status.st_mtim.tv_nsec));
+    hasher.text(path).value(frame).value(stamp.bytes).value(stamp.modified_ns);
+    hasher.value(stamp.changed_ns).value(stamp.device).value(stamp.inode);
     return hasher.finish();
 }
 

@@ -103,6 +103,11 @@ TEST_F(Farm, ATaskRefusesWhatWasNotSubmitted) {
     expect_failure(run({"task", "farm/job.json", "planes", "0", "--progress", "none"}), 3,
                    {"texture", "Submit again"});
     put("sample.png", sample);
+    const std::string matte = bytes("masks/0005.png");
+    put("masks/0005.png", bytes("masks/0001.png"));
+    expect_failure(run({"task", "farm/job.json", "planes", "0", "--progress", "none"}), 3,
+                   {"the mattes", "Submit again"});
+    put("masks/0005.png", matte);
     EXPECT_EQ(task("planes", 0), 0);
     fs::remove(folder_ / "farm" / name);
     expect_failure(run({"task", "farm/job.json", "frames", "0", "--progress", "none"}), 3,

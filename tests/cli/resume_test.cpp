@@ -73,12 +73,16 @@ TEST_F(Resume, TheMovieOfAResumedRunIsThatOfAnUninterruptedOne) {
 
 TEST_F(Resume, EveryFormatCarriesTheRecipe) {
     make_shot(1);
+    std::string inputs;
     for (const std::string extension : {"png", "tif", "jpg", "exr", "dpx"}) {
         const std::string pattern = extension + "/####." + extension;
         expect_success(run_replace({"-o", pattern, "--seed", "7"}));
         auto texts = read_recipe_metadata(in(extension + "/0001." + extension));
         EXPECT_EQ(texts["weft:settings"].size(), 32u) << extension;
         EXPECT_EQ(texts["weft:seed"], "7") << extension;
+        EXPECT_THAT(texts["weft:inputs"], ::testing::StartsWith("plate:")) << extension;
+        if (inputs.empty()) inputs = texts["weft:inputs"];
+        EXPECT_EQ(texts["weft:inputs"], inputs) << extension;
         EXPECT_EQ(texts["weft:backend"], "cpu") << extension;
         expect_success(run_replace({"-o", pattern, "--seed", "7", "--resume"}));
         const auto once = contents(extension);

@@ -147,13 +147,13 @@ TEST_F(RenderFiles, AVersionGoesUpOnlyWhereThereIsOne) {
 TEST_F(RenderFiles, ExistingFramesAreRefusedByDefault) {
     const auto pattern = SequencePattern::parse(in("frames/####.png"));
     const auto keep = [&](ExistingFrames existing) {
-        return frames_to_keep(*pattern, {2, 3, 40}, Card::kPlate, existing, {});
+        return frames_to_keep(*pattern, {2, 3, 40}, Card::kPlate, existing, {{}, {}});
     };
     const auto refused = keep(ExistingFrames::kRefuse);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
     EXPECT_THAT(refused.error().text(), HasSubstr("0002.png"));
-    EXPECT_TRUE(keep(ExistingFrames::kOverwrite)->empty());
+    EXPECT_TRUE(keep(ExistingFrames::kOverwrite)->frames.empty());
     const auto resumed = keep(ExistingFrames::kResume);
     ASSERT_FALSE(resumed) << "they carry no recipe";
     EXPECT_THAT(resumed.error().text(), HasSubstr("0002.png was not rendered by Weft"));

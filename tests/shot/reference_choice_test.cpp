@@ -2,6 +2,7 @@
 #include "app/shot/reference_choice.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -162,17 +163,30 @@ TEST_F(ReferenceChoiceTest, AFileThatCannotBeReadIsNoReference) {
 TEST_F(ReferenceChoiceTest, ExaminedMattesAreNotReadAgain) {
     for (int frame = 1; frame <= 8; ++frame)
         put(frame, frame < 4 ? Matte(kSize) : box(20, 20));
+    // Painted on each frame, so that no folder is listed.
+    MatteSource keys;
+    for (int frame = 1; frame <= 8; ++frame)
+        keys.keyframes[frame] = {file(frame)};
+    Region painted;
+    painted.matte = keys;
     VisibilityCache memory;
-    ASSERT_EQ(choose_reference(region(), Numbers(8), &memory)->frame, 4);
-    // Other bytes under the same size and time: a matte that was read again would show nothing.
+    ASSERT_EQ(choose_reference(painted, Numbers(8), &memory)->frame, 4);
+    // While no file can be opened, a matte that was read again would show nothing.
+    rlimit usual{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &usual), 0);
+    const rlimit none{0, usual.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+    const auto remembered = choose_reference(painted, Numbers(8), &memory);
+    const auto read = choose_reference(painted, Numbers(8), nullptr);
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &usual), 0);
+    EXPECT_EQ(remembered->frame, 4);
+    EXPECT_FALSE(read->shown);
+    // Other bytes of the same size and time are another file.
     const auto time = fs::last_write_time(file(4));
     const auto bytes = fs::file_size(file(4));
     std::ofstream(file(4), std::ios::trunc) << std::string(bytes, 'x');
     fs::last_write_time(file(4), time);
-    EXPECT_EQ(choose_reference(region(), Numbers(8), &memory)->frame, 4);
-    EXPECT_EQ(choose_reference(region(), Numbers(8), nullptr)->frame, 5);
-    fs::last_write_time(file(4), time + std::chrono::seconds(1));
-    EXPECT_EQ(choose_reference(region(), Numbers(8), &memory)->frame, 5);
+    EXPECT_EQ(choose_reference(painted, Numbers(8), &memory)->frame, 5);
 }
 
 TEST_F(ReferenceChoiceTest, ALongShotIsJudgedByAFewFrames) {
