@@ -99,7 +99,7 @@ bool still_runs(int pid) {
 
 }  // namespace
 
-RecoveryWriter::RecoveryWriter(std::string folder, std::function<void()> before_writing)
+RecoveryWriter::RecoveryWriter(const std::string& folder, std::function<void()> before_writing)
     : file_((fs::path(folder) / ("recovery-" + std::to_string(getpid()) + ".weft")).string()),
       before_writing_(std::move(before_writing)) {
     std::error_code error;
@@ -186,6 +186,7 @@ std::vector<RecoveredProject> find_recoverable(const std::string& folder) {
     std::sort(found.begin(), found.end(),
               [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<RecoveredProject> out;
+    out.reserve(found.size());
     for (auto& entry : found)
         out.push_back(std::move(entry.second));
     return out;

@@ -37,7 +37,7 @@ class RecoveryWriter {
   public:
     /// `before_writing` is called in the background before each snapshot, to write files that the
     /// snapshot refers to.
-    RecoveryWriter(std::string folder, std::function<void()> before_writing);
+    RecoveryWriter(const std::string& folder, std::function<void()> before_writing);
     ~RecoveryWriter();  ///< Writes a pending snapshot and keeps it.
 
     /// Schedules a snapshot; it replaces a pending one.

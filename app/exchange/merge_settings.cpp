@@ -92,10 +92,11 @@ class SettingsMerge {
         for (const Value side : {mine, theirs})
             for (const auto& [name, value] : side->items())
                 names.insert(name);
+        const std::string prefix = key.empty() ? key : key + ".";
         Json out = Json::object();
         for (const std::string& name : names) {
-            const std::string full = key.empty() ? name : key + "." + name;
-            const auto value = this->value(full, at(base, name), at(mine, name), at(theirs, name));
+            const auto value =
+                this->value(prefix + name, at(base, name), at(mine, name), at(theirs, name));
             if (value) out[name] = *value;
         }
         return out;

@@ -14,13 +14,13 @@ constexpr int kTries = 5;
 
 std::string backup_path(const std::string& path) {
     const fs::path whole(path);
+    const std::string begin = (whole.parent_path() / whole.stem()).string() + "_backup_";
     std::error_code none;
     for (int number = 1;; ++number) {
+        std::string free = begin;
         const std::string digits = std::to_string(number);
-        const std::string padded = std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0');
-        const fs::path free =
-            whole.parent_path() / (whole.stem().string() + "_backup_" + padded + digits + ".weft");
-        if (!fs::exists(free, none)) return free.string();
+        free.append(digits.size() < 3 ? 3 - digits.size() : 0, '0').append(digits).append(".weft");
+        if (!fs::exists(free, none)) return free;
     }
 }
 

@@ -46,8 +46,12 @@ bool is_still_named(const std::string& path, int file) {
            ours.st_dev == named.st_dev && ours.st_ino == named.st_ino;
 }
 
-std::string seconds_text(std::chrono::milliseconds wait) {
-    return std::to_string(std::chrono::ceil<std::chrono::seconds>(wait).count()) + " s";
+tl::unexpected<Error> held_too_long(const std::string& path, std::chrono::milliseconds wait) {
+    const auto seconds = std::chrono::ceil<std::chrono::seconds>(wait).count();
+    return fail(ErrorCode::kUnreadable,
+                path + " is being written by another program, for more than " +
+                    std::to_string(seconds) + " s. Wait until that is done and try again; 'fuser " +
+                    path + "' lists the programs that have it open.");
 }
 
 }  // namespace
@@ -62,12 +66,7 @@ Expected<FileLock> FileLock::take(const std::string& path, std::chrono::millisec
         // ESTALE: replaced on another machine.
         const bool again = error == 0 || error == EWOULDBLOCK || error == EINTR || error == ESTALE;
         if (!again) return FileLock(-1);
-        if (Clock::now() >= end)
-            return fail(ErrorCode::kUnreadable,
-                        path + " is being written by another program, for more than " +
-                            seconds_text(wait) +
-                            ". Wait until that is done and try again; 'fuser " + path +
-                            "' lists the programs that have it open.");
+        if (Clock::now() >= end) return held_too_long(path, wait);
         if (error != 0) std::this_thread::sleep_for(kPause);
     }
 }
