@@ -26,16 +26,6 @@ int score(const std::string& name, const std::string& typed) {
     return total * 16 - static_cast<int>(name.size()) / 4;
 }
 
-// "placement.corners_px" → "Corners".
-std::string readable_key(const std::string& key) {
-    std::string out = key.substr(key.find_last_of('.') + 1);
-    if (out.ends_with("_px")) out.resize(out.size() - 3);
-    if (out.ends_with("_deg")) out.resize(out.size() - 4);
-    std::replace(out.begin(), out.end(), '_', ' ');
-    if (!out.empty()) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
-    return out;
-}
-
 // "Set placement.rotate_deg of cloth" → "Rotate texture of cloth"; other settings by their labels.
 std::string step_label(const std::string& step) {
     constexpr std::string_view kSet = "Set ", kOf = " of ";
@@ -46,8 +36,7 @@ std::string step_label(const std::string& step) {
     if (key == "placement.scale") return "Scale texture of " + rest;
     if (key == "placement.rotate_deg") return "Rotate texture of " + rest;
     if (key == "placement.offset_px") return "Move texture of " + rest;
-    std::string label(parameter_label(key));
-    if (label.empty()) label = readable_key(key);
+    const std::string label = readable_label(key);
     return rest.empty() ? label : label + " of " + rest;
 }
 

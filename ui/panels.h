@@ -85,6 +85,7 @@ void history_window(Ctx& c);
 void about_window(Ctx& c);
 void file_browser(Ctx& c);
 void leave_question(Ctx& c);
+void save_question(Ctx& c);
 void tour(Ctx& c);
 
 /// The inspector's section for temporal parameters.
@@ -105,6 +106,9 @@ void space_parameter(Ctx& c, std::string_view key, const char* label, const char
 void project_parameter(Ctx& c, std::string_view key, const char* label = nullptr);
 /// The label of a parameter by its full key, such as "Scale"; empty if it has none.
 [[nodiscard]] std::string_view parameter_label(std::string_view key);
+/// The same, or the readable key of a parameter without a label: "placement.corners_px" →
+/// "Corners".
+[[nodiscard]] std::string readable_label(std::string_view key);
 /// The label of a choice: "Locked to the surface" for "locked"; without a label, its name.
 [[nodiscard]] std::string choice_label(std::string_view key, std::string_view name);
 

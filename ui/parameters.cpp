@@ -151,6 +151,17 @@ std::string_view parameter_label(std::string_view key) {
     return shape ? shape->label : std::string_view();
 }
 
+std::string readable_label(std::string_view key) {
+    std::string out(parameter_label(key));
+    if (!out.empty()) return out;
+    out = key.substr(key.find_last_of('.') + 1);
+    if (out.ends_with("_px")) out.resize(out.size() - 3);
+    if (out.ends_with("_deg")) out.resize(out.size() - 4);
+    std::replace(out.begin(), out.end(), '_', ' ');
+    if (!out.empty()) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
+    return out;
+}
+
 std::string parameter_name(const ParameterInfo& info, const char* given) {
     if (given) return given;
     if (const Shape* shape = shape_of(info.full_key())) return shape->label;

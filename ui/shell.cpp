@@ -127,6 +127,7 @@ std::vector<Action> Shell::draw(const SessionView& view) {
           act_now,
           {}};
     const bool sheet = state_.palette_open || state_.shortcuts_open || state_.leave_asked ||
+                       view.save_question.has_value() ||
                        state_.browser.purpose != BrowserState::Purpose::kNone;
     part("commands");
     const bool escaped = close_popups(state_);
@@ -150,6 +151,7 @@ std::vector<Action> Shell::draw(const SessionView& view) {
     ui::shot_window(c);
     ui::shortcut_sheet(c);
     ui::about_window(c);
+    ui::save_question(c);
     ui::file_browser(c);
     ui::command_palette(c);
     ui::leave_question(c);

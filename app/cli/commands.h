@@ -1,6 +1,7 @@
 #pragma once
 // The subcommands, independent of how their arguments are written.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -157,15 +158,16 @@ CommandResult info_command(const std::string& path);
 [[nodiscard]] Error error_of(const Issue& issue);
 CommandResult validate_command(const std::string& path, bool files);
 CommandResult new_command(const std::string& path, const Project& project, const WriteFlags& write);
-/// Changes a project file: applies a file of actions, adds a region, or replaces the region at
-/// `index`. Textures of the library `library` (empty: the user's own) are copied beside the
-/// project.
+/// Changes a project file, as one step among its writers (update_project()): applies a file of
+/// actions, adds a region, or changes the region of this name or id. Textures of the library
+/// `library` (empty: the user's own) are copied beside the project.
 CommandResult apply_command(const std::string& path, const std::string& actions,
                             const std::string& library, bool dry_run);
-CommandResult region_add_command(const std::string& path, Region region,
+CommandResult region_add_command(const std::string& path, const Region& region,
                                  const std::string& library);
-CommandResult region_set_command(const std::string& path, const Project& project, std::size_t index,
-                                 const Region& changed, const std::string& library);
+using RegionChange = std::function<Status(Region&)>;
+CommandResult region_set_command(const std::string& path, const std::string& region,
+                                 const RegionChange& change, const std::string& library);
 CommandResult region_remove_command(const std::string& path, const std::string& region);
 CommandResult region_correct_command(const std::string& path, const SetCorrection& edit);
 CommandResult region_list_command(const std::string& path);

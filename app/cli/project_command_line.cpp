@@ -6,7 +6,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/option_values.h"
 #include "app/cli/region_flags.h"
-#include "app/project/codec/project_file.h"
 #include "app/project/edit.h"
 
 namespace weft {
@@ -45,7 +44,7 @@ void add_region_add(CLI::App& group, CommandResult& result) {
     on_run(*command, result, [=]() -> CommandResult {
         Region region;
         WEFT_CHECK_OK(flags->apply(region));
-        return region_add_command(*path, std::move(region), *library);
+        return region_add_command(*path, region, *library);
     });
 }
 
@@ -61,11 +60,8 @@ void add_region_set(CLI::App& group, CommandResult& result) {
         "  weft region set shot.weft wall --enabled=false");
     const auto library = add_library_flag(*command);
     on_run(*command, result, [=]() -> CommandResult {
-        WEFT_TRY(project, load_project(*path));
-        WEFT_TRY(index, find_region(project, *region));
-        Region changed = *project.regions[index];
-        WEFT_CHECK_OK(flags->apply(changed));
-        return region_set_command(*path, project, index, changed, *library);
+        return region_set_command(
+            *path, *region, [&](Region& changed) { return flags->apply(changed); }, *library);
     });
 }
 

@@ -12,6 +12,7 @@
 #include "app/project/codec/edit_json.h"
 #include "app/project/codec/project_file.h"
 #include "app/project/codec/project_json.h"
+#include "app/project/codec/update_project.h"
 #include "app/project/region_names.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/input_file.h"
@@ -29,16 +30,13 @@ Answer saved_answer(const std::string& path, const Project& project) {
     return {Json{{"project", absolute_path(path)}, {"regions", project.regions.size()}}};
 }
 
-CommandResult saved(const std::string& path, const Project& project) {
-    WEFT_CHECK_OK(save_project(path, project, in_place()));
-    return saved_answer(path, project);
-}
-
-// Copies textures of a library beside the project before saving.
-CommandResult saved_with_textures(const std::string& path, const Project& project,
-                                  const std::string& library) {
-    WEFT_TRY(kept, keep_library_textures(project, path, library));
-    return saved(path, kept);
+// Changes a project file, with textures of a library copied beside it.
+Expected<Project> updated(const std::string& path, const std::string& library,
+                          const ProjectEdit& edit) {
+    return update_project(path, [&](const Project& before) -> Expected<Project> {
+        WEFT_TRY(after, edit(before));
+        return keep_library_textures(after, path, library);
+    });
 }
 
 Json region_json(const Region& region) {
@@ -89,6 +87,7 @@ CommandResult new_command(const std::string& path, const Project& project,
     const Project whole = resolve_paths(project, project_dir(path));
     // The plate is relative to the project's folder, but a slip might mean it from here.
     WEFT_TRY(rule, write_rule(write, {project.plate.path}, whole));
+    WEFT_TRY(lock, lock_project(path));
     WEFT_CHECK_OK(check_replaces_project(path));
     WEFT_CHECK_OK(make_folder_of(path, rule));
     WEFT_CHECK_OK(save_project(path, project, rule));
@@ -104,6 +103,7 @@ CommandResult new_command(const std::string& path, const Project& project,
 
 CommandResult apply_command(const std::string& path, const std::string& actions,
                             const std::string& library, bool dry_run) {
+    // A wrong project is named before standard input is waited for.
     WEFT_TRY(project, load_project(path));
     const bool piped = actions == "-";
     WEFT_TRY(text, piped ? read_standard_input("The list of actions")
@@ -111,12 +111,17 @@ CommandResult apply_command(const std::string& path, const std::string& actions,
     const std::string source = piped ? "standard input" : actions;
     const auto edits = edits_from_json(text);
     if (!edits) return fail_in(edits.error(), source);
-    const auto changed = apply_edits(project, *edits);
-    if (!changed) return fail_in(changed.error(), source);
+    const auto edit = [&](const Project& before) -> Expected<Project> {
+        auto changed = apply_edits(before, *edits);
+        if (!changed) return fail_in(std::move(changed).error(), source);
+        return changed;
+    };
     Answer answer;
-    if (!dry_run) {
-        WEFT_TRY(done, saved_with_textures(path, *changed, library));
-        answer = std::move(done);
+    if (dry_run) {
+        WEFT_CHECK_OK(edit(project));
+    } else {
+        WEFT_TRY(done, updated(path, library, edit));
+        answer = saved_answer(path, done);
     }
     answer.json["project"] = absolute_path(path);
     answer.json["actions"] = edits->size();
@@ -124,39 +129,58 @@ CommandResult apply_command(const std::string& path, const std::string& actions,
     return answer;
 }
 
-CommandResult region_add_command(const std::string& path, Region region,
+CommandResult region_add_command(const std::string& path, const Region& region,
                                  const std::string& library) {
-    WEFT_TRY(project, load_project(path));
-    if (region.name.empty())
-        region.name = free_region_name(project, "region " + std::to_string(project.next_region_id));
-    WEFT_TRY(changed, apply_edit(project, AddRegion{std::move(region), {}}));
-    WEFT_TRY(answer, saved_with_textures(path, changed, library));
-    answer.json["region"] = region_json(*changed.regions.back());
+    Json added;
+    const auto edit = [&](const Project& before) -> Expected<Project> {
+        Region named = region;
+        if (named.name.empty())
+            named.name =
+                free_region_name(before, "region " + std::to_string(before.next_region_id));
+        WEFT_TRY(after, apply_edit(before, AddRegion{std::move(named), {}}));
+        added = region_json(*after.regions.back());
+        return after;
+    };
+    WEFT_TRY(done, updated(path, library, edit));
+    Answer answer = saved_answer(path, done);
+    answer.json["region"] = added;
     return answer;
 }
 
-CommandResult region_set_command(const std::string& path, const Project& project, std::size_t index,
-                                 const Region& changed, const std::string& library) {
-    WEFT_TRY(after, apply_edits(project, region_edits(*project.regions[index], changed)));
-    WEFT_TRY(answer, saved_with_textures(path, after, library));
-    answer.json["region"] = region_json(*after.regions[index]);
+CommandResult region_set_command(const std::string& path, const std::string& region,
+                                 const RegionChange& change, const std::string& library) {
+    Json set;
+    const auto edit = [&](const Project& before) -> Expected<Project> {
+        WEFT_TRY(index, find_region(before, region));
+        Region changed = *before.regions[index];
+        WEFT_CHECK_OK(change(changed));
+        WEFT_TRY(after, apply_edits(before, region_edits(*before.regions[index], changed)));
+        set = region_json(*after.regions[index]);
+        return after;
+    };
+    WEFT_TRY(done, updated(path, library, edit));
+    Answer answer = saved_answer(path, done);
+    answer.json["region"] = set;
     return answer;
 }
 
 CommandResult region_remove_command(const std::string& path, const std::string& region) {
-    WEFT_TRY(project, load_project(path));
-    WEFT_TRY(index, find_region(project, region));
-    const Json removed = region_json(*project.regions[index]);
-    WEFT_TRY(changed, apply_edit(project, RemoveRegion{{project.regions[index]->id, {}}}));
-    WEFT_TRY(answer, saved(path, changed));
+    Json removed;
+    const auto edit = [&](const Project& before) -> Expected<Project> {
+        WEFT_TRY(index, find_region(before, region));
+        removed = region_json(*before.regions[index]);
+        return apply_edit(before, RemoveRegion{{before.regions[index]->id, {}}});
+    };
+    WEFT_TRY(done, update_project(path, edit));
+    Answer answer = saved_answer(path, done);
     answer.json["removed"] = removed;
     return answer;
 }
 
 CommandResult region_correct_command(const std::string& path, const SetCorrection& edit) {
-    WEFT_TRY(project, load_project(path));
-    WEFT_TRY(changed, apply_edit(project, edit));
-    WEFT_TRY(answer, saved(path, changed));
+    WEFT_TRY(done,
+             update_project(path, [&](const Project& before) { return apply_edit(before, edit); }));
+    Answer answer = saved_answer(path, done);
     answer.json["frame"] = edit.frame;
     answer.json["pins"] = edit.pins.size();
     return answer;

@@ -7,6 +7,7 @@
 #include "app/exchange/kept_textures.h"
 #include "app/exchange/look.h"
 #include "app/project/codec/project_file.h"
+#include "app/project/codec/update_project.h"
 #include "app/render/farm.h"
 #include "engine/core/child_process.h"
 
@@ -49,10 +50,11 @@ CommandResult look_save_command(const std::string& project, const std::string& l
 
 CommandResult look_apply_command(const std::string& look, const std::string& project,
                                  const std::string& region, const std::string& library) {
-    WEFT_TRY(loaded, load_project(project));
-    WEFT_TRY(changed, apply_look(look, loaded, project_dir(project), region));
-    WEFT_TRY(kept, keep_library_textures(changed, project, library));
-    WEFT_CHECK_OK(save_project(project, kept, in_place()));
+    const auto edit = [&](const Project& before) -> Expected<Project> {
+        WEFT_TRY(changed, apply_look(look, before, project_dir(project), region));
+        return keep_library_textures(changed, project, library);
+    };
+    WEFT_CHECK_OK(update_project(project, edit));
     return Answer{{{"project", absolute_path(project)}, {"look", absolute_path(look)}}};
 }
 

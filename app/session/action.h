@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/exchange/merge_project.h"
 #include "app/mattes/paint.h"
 #include "app/preview/playback.h"
 #include "app/preview/preview.h"
@@ -74,6 +75,12 @@ struct SaveAs {
 /// Saves under the next free version of the name: shot.weft, shot_v002.weft, shot_v003.weft.
 struct SaveVersion {
     bool operator==(const SaveVersion&) const = default;
+};
+/// Answers SessionView::save_question: whose values are saved where both changed the same; unset:
+/// nothing is saved.
+struct AnswerSave {
+    std::optional<MergeSide> wins;
+    bool operator==(const AnswerSave&) const = default;
 };
 /// Copies the project with all of its inputs into a new folder below this one.
 struct CollectProject {
@@ -370,13 +377,13 @@ struct MeasureResult {
 
 using Action = std::variant<
     DoEdit, DoEdits, TryEdit, TryEdits, Undo, Redo, GoToHistory, NewProject, OpenProject, OpenDemo,
-    OpenAny, Save, SaveAs, SaveVersion, CollectProject, CancelCollect, RelinkFiles, CloseProject,
-    Recover, TrustFolder, SelectRegion, SoloRegion, LockRegion, GoToFrame, StepFrames, StepKeyframe,
-    Play, SetPlayMode, MarkRange, ShowOnionSkin, BeginStroke, ContinueStroke, EndStroke,
-    SelectMatteLayer, FillPolygon, FloodSelect, ScribbleSelect, SetShape, FollowShape, DetachShape,
-    ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere, CopyKeyframe,
-    PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis, ApplyTexture,
-    ApplyTextures, UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay, ShowStages,
-    ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+    OpenAny, Save, SaveAs, SaveVersion, AnswerSave, CollectProject, CancelCollect, RelinkFiles,
+    CloseProject, Recover, TrustFolder, SelectRegion, SoloRegion, LockRegion, GoToFrame, StepFrames,
+    StepKeyframe, Play, SetPlayMode, MarkRange, ShowOnionSkin, BeginStroke, ContinueStroke,
+    EndStroke, SelectMatteLayer, FillPolygon, FloodSelect, ScribbleSelect, SetShape, FollowShape,
+    DetachShape, ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere,
+    CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis,
+    ApplyTexture, ApplyTextures, UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay,
+    ShowStages, ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
 
 }  // namespace weft

@@ -14,7 +14,8 @@
 #include "app/base/background_tasks.h"
 #include "app/base/editor_settings.h"
 #include "app/base/frame_clock.h"
-#include "app/exchange/move_project.h"
+#include "app/base/recovery.h"
+#include "app/exchange/save_document.h"
 #include "app/mattes/edged_matte.h"
 #include "app/mattes/matte_painting.h"
 #include "app/preview/plate_opener.h"
@@ -24,7 +25,6 @@
 #include "app/session/action.h"
 #include "app/session/collect_run.h"
 #include "app/session/job_desk.h"
-#include "app/session/recovery.h"
 #include "app/session/session_view.h"
 #include "app/session/strip.h"
 #include "app/shot/drawn_mattes.h"
@@ -110,7 +110,12 @@ class Session {
     bool abandon_change();
 
     // ---- the document's files (session_files.cpp) ----
-    void save(const std::string& path);
+    /// `new_only`: as DocumentSave has it.
+    void save(const std::string& path, const std::optional<SaveAnswer>& answer = {},
+              bool new_only = false);
+    void ask_about(const DocumentSave& what, const DocumentSaved& found);
+    void answer_save(const AnswerSave& answer);
+    void take_saved(const DocumentSave& what, const DocumentSaved& done, std::uint64_t serial);
     void save_version();
     void saved_as(const Project& written, const std::string& path, const MovedFiles& moved);
     [[nodiscard]] bool is_plate_folder(const std::string& folder) const;
@@ -264,6 +269,7 @@ class Session {
     bool open_ = false;
     bool untrusted_ = false;  // the document came from an untrusted folder
     std::string path_;
+    std::optional<ProjectOnDisk> on_disk_;  // what path_ held when it was opened or last saved
     History history_;
     std::optional<Project> tried_;
     std::optional<double> dragged_at_s_;  // of the last request, if it was for `tried_`

@@ -44,6 +44,7 @@ struct Session::Actor {
     void operator()(const OpenAny& a) const { s.open_any(a.path); }
     void operator()(const Save&) const { s.save(s.path_); }
     void operator()(const SaveAs& a) const { s.save(a.path); }
+    void operator()(const AnswerSave& a) const { s.answer_save(a); }
     void operator()(const SaveVersion&) const { s.save_version(); }
     void operator()(const CollectProject& a) const { s.collect(a.folder); }
     void operator()(const CancelCollect& /*a*/) const { s.cancel_collect(); }
@@ -182,7 +183,7 @@ struct Session::Actor {
         s.tried_.reset();
         if (!move()) return;
         s.document_changed();
-        s.recovery_.note(s.resolved(), s.path_);
+        s.recovery_.note({s.resolved(), s.path_, s.on_disk_});
     }
     template <class T>
     void show(T& shown, const T& wanted) const {

@@ -82,7 +82,7 @@ void Session::commit(Project project, std::string label) {
     tried_.reset();
     history_.push(std::move(project), std::move(label));
     document_changed();
-    recovery_.note(resolved(), path_);
+    recovery_.note({resolved(), path_, on_disk_});
 }
 
 void Session::document_changed() {
@@ -118,7 +118,9 @@ void Session::start_document(Project project, std::string path) {
     end_measuring();
     view_.report = {};
     view_.missing.clear();
+    view_.save_question.reset();
     path_ = std::move(path);
+    on_disk_.reset();
     history_ = History(std::move(project));
     open_ = true;
     selected_ = 0;
@@ -130,13 +132,14 @@ void Session::start_document(Project project, std::string path) {
 }
 
 void Session::open_project(const std::string& path) {
-    auto project = load_project(path);
-    if (!project) {
-        notify(NoticeKind::kError, project.error().text());
+    auto file = read_project(path);
+    if (!file) {
+        notify(NoticeKind::kError, file.error().text());
         return;
     }
     recovery_.clear();
-    start_document(std::move(*project), fs::absolute(path).string());
+    start_document(file->project, fs::absolute(path).string());
+    on_disk_ = std::move(*file);
     remember_recent(path_);
 }
 
@@ -206,11 +209,13 @@ void Session::recover(bool accept) {
         const std::string dir = project_dir(found.project_path);
         const Project project =
             map_paths(found.project, [&](const std::string& p) { return relative_to(dir, p); });
-        Project saved;
-        if (!found.project_path.empty()) {
-            if (auto loaded = load_project(found.project_path)) saved = std::move(*loaded);
+        // As it was when it was opened: what others have saved since is merged on saving.
+        auto known = found.known;
+        if (!known && !found.project_path.empty()) {
+            if (auto loaded = read_project(found.project_path)) known = std::move(*loaded);
         }
-        start_document(std::move(saved), found.project_path);
+        start_document(known ? known->project : Project(), found.project_path);
+        on_disk_ = std::move(known);
         commit(project, "Recover unsaved work");
         find_render_folder();  // by the name that came with it
         recovery_.flush();     // before the old snapshot is deleted

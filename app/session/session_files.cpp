@@ -4,6 +4,7 @@
 
 #include "app/exchange/collect.h"
 #include "app/exchange/relink.h"
+#include "app/exchange/save_document.h"
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "engine/media/sequence_pattern.h"
@@ -31,6 +32,17 @@ std::string files_text(std::size_t count) {
     return std::to_string(count) + (count == 1 ? " file" : " files");
 }
 
+// What was saved, and what became of the work of others.
+std::string saved_text(const std::string& path, const DocumentSaved& done) {
+    std::string text = "Saved " + fs::path(path).filename().string() + ".";
+    for (std::size_t k = 0; k < done.merged.size(); ++k)
+        text += (k == 0 ? " Merged what another program changed meanwhile: " : ", ") +
+                done.merged[k] + (k + 1 == done.merged.size() ? "." : "");
+    if (!done.backup.empty())
+        text += " What was replaced is kept in " + fs::path(done.backup).filename().string() + ".";
+    return text;
+}
+
 }  // namespace
 
 // A project among the frames of a sequence is easily taken for one of them, and plates are often
@@ -46,58 +58,84 @@ bool Session::is_plate_folder(const std::string& folder) const {
     return fs::weakly_canonical(folder, none) == fs::weakly_canonical(frames, none);
 }
 
-void Session::save(const std::string& path) {
+void Session::save(const std::string& path, const std::optional<SaveAnswer>& answer,
+                   bool new_only) {
     if (!open_) return;
     if (path.empty()) {
         notify(NoticeKind::kWarning, "Choose where to save this project.");
         return;
     }
     end_stroke();
-    const std::string whole = fs::absolute(path).lexically_normal().string();
+    std::error_code none;
+    const bool same_file = path == path_ || fs::equivalent(path, path_, none);
+    const std::string whole = same_file ? path_ : fs::absolute(path).lexically_normal().string();
     if (whole != path_ && is_plate_folder(project_dir(whole))) {
         notify(NoticeKind::kError, project_dir(whole) +
                                        " holds the plate's frames. Save the project in another "
                                        "folder.");
         return;
     }
-    const std::string unsaved = (fs::path(options_.state_folder) / "unsaved").string() + "/";
     view_.saving = true;
-    file_tasks_.start([this, whole, unsaved, from = path_, project = history_.current(),
-                       serial = history_.serial(), document = document_id_]() mutable -> Finish {
+    view_.save_question.reset();
+    DocumentSave what;
+    what.path = whole;
+    what.from = path_;
+    what.project = history_.current();
+    what.known = on_disk_;
+    what.unsaved = (fs::path(options_.state_folder) / "unsaved").string() + "/";
+    what.answer = answer;
+    what.new_only = new_only;
+    file_tasks_.start([this, what = std::move(what), serial = history_.serial(),
+                       document = document_id_]() mutable -> Finish {
         shelf_.flush();
-        Status written;
-        MovedFiles moved;
-        if (whole != from) {
-            auto copied = copy_own_files(project, from, whole, unsaved);
-            if (copied) {
-                moved = std::move(*copied);
-                project = rebased(project, from, whole, moved);
-            } else {
-                written = tl::unexpected<Error>(copied.error());
-            }
-        }
-        if (written) written = save_project(whole, project, in_place());
-        return [this, whole, from, serial, written, document, moved = std::move(moved),
-                project = std::move(project)] {
+        auto done = save_document(what);
+        return [this, what = std::move(what), done = std::move(done), serial, document] {
             view_.saving = false;
-            if (!written) {
-                notify(NoticeKind::kError, written.error().text());
+            if (!done) return notify(NoticeKind::kError, done.error().text());
+            // Another project may have been opened in the meantime.
+            const bool here = document == document_id_ && path_ == what.from;
+            if (!done->conflicts.empty()) {
+                if (here) ask_about(what, *done);
                 return;
             }
-            remember_recent(whole);
-            notify(NoticeKind::kGood, "Saved " + fs::path(whole).filename().string() + ".");
-            // Another project may have been opened in the meantime.
-            if (document != document_id_ || path_ != from) return;
-            if (whole != from) {
-                saved_as(project, whole, moved);
-            } else {
-                history_.mark_saved(serial);
-            }
-            if (!history_.modified()) recovery_.clear();
-            trust_saved();
-            ++document_version_;
+            remember_recent(what.path);
+            notify(NoticeKind::kGood, saved_text(what.path, *done));
+            if (here) take_saved(what, *done, serial);
         };
     });
+}
+
+void Session::ask_about(const DocumentSave& what, const DocumentSaved& found) {
+    view_.save_question = SaveQuestion{what.path, found.now.hash, found.conflicts, found.merged};
+}
+
+void Session::answer_save(const AnswerSave& answer) {
+    const auto question = std::exchange(view_.save_question, std::nullopt);
+    if (question && answer.wins) save(path_, SaveAnswer{*answer.wins, question->theirs});
+}
+
+// Changes made while the document was being written are still unsaved.
+void Session::take_saved(const DocumentSave& what, const DocumentSaved& done,
+                         std::uint64_t serial) {
+    if (what.path != what.from) {
+        saved_as(done.now.project, what.path, done.moved);
+    } else if (done.merged.empty()) {
+        history_.mark_saved(serial);
+    } else {
+        auto merged = with_merged(what.project, history_.current(), done);
+        if (!merged) return notify(NoticeKind::kError, merged.error().text());
+        if (const auto id = done.renumbered.find(selected_); id != done.renumbered.end())
+            selected_ = id->second;
+        commit(std::move(*merged), "Merge changes of the file");
+        if (history_.current() == done.now.project) history_.mark_saved();
+    }
+    on_disk_ = done.now;
+    if (history_.modified())
+        recovery_.note({resolved(), path_, on_disk_});
+    else
+        recovery_.clear();
+    trust_saved();
+    ++document_version_;
 }
 
 // The document has a path now; changes made while it was being written are still unsaved, and all
@@ -123,7 +161,7 @@ void Session::save_version() {
     fs::path next;
     for (int k = version + 1; next.empty() || fs::exists(next, none); ++k)
         next = fs::path(project_dir(path_)) / (stem + version_text(k) + ".weft");
-    save(next.string());
+    save(next.string(), {}, true);
 }
 
 // One at a time. It goes on when another shot is opened: its files were named when it began.

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 
 #include "app/base/background.h"
@@ -21,6 +22,21 @@ namespace fs = std::filesystem;
 std::string select_text(const MatteSelect& select) {
     return (select.value ? std::to_string(*select.value) : std::string()) + "/" + select.channel +
            (select.invert ? "/inverted" : "") + "/" + select.crypto;
+}
+
+// In the names of mattes: two editors may paint in one project at the same time, and a frozen frame
+// must not be that of an earlier session.
+const std::string& editor_tag() {
+    static const std::string tag = [] {
+        char host[256] = {};
+        gethostname(host, sizeof host - 1);
+        Hasher hasher;
+        hasher.text(host).value(getpid());
+        hasher.value(std::chrono::system_clock::now().time_since_epoch().count());
+        constexpr std::size_t kDigits = 6;
+        return hasher.finish().hex().substr(0, kDigits);
+    }();
+    return tag;
 }
 
 // A key of everything in the document that a propagated matte depends on.
@@ -221,7 +237,8 @@ void Session::end_stroke() {
 }
 
 std::string Session::new_matte_path(RegionId region, int frame) {
-    const std::string name = "region" + std::to_string(region) + "_" + std::to_string(frame) + "_";
+    const std::string name =
+        "region" + std::to_string(region) + "_" + std::to_string(frame) + "_" + editor_tag() + "_";
     const fs::path folder =
         path_.empty()
             ? fs::path(options_.state_folder) / "unsaved" / std::to_string(getpid())

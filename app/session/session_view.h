@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/base/picture.h"
+#include "app/exchange/merge_project.h"
 #include "app/jobs/child_jobs.h"
 #include "app/mattes/matte_layer.h"
 #include "app/mattes/matte_shelf.h"
@@ -17,6 +18,7 @@
 #include "app/project/validate.h"
 #include "app/session/action.h"
 #include "app/session/where_to_correct.h"
+#include "engine/core/hash.h"
 
 namespace weft {
 
@@ -89,6 +91,14 @@ struct RecoveryOffer {
 struct TrustOffer {
     std::string folder;  ///< The project's folder.
     std::string output;  ///< The first output outside it.
+};
+
+/// The project's file was changed by another program, also where the document was.
+struct SaveQuestion {
+    std::string path;
+    Hash128 theirs;  ///< The version of the file.
+    std::vector<MergeConflict> conflicts;
+    std::vector<std::string> merged;  ///< As MergedProject::changed.
 };
 
 /// Files being copied by CollectProject.
@@ -191,6 +201,7 @@ struct SessionView {
     std::vector<Notice> notices;
     std::optional<RecoveryOffer> recovery;
     std::optional<TrustOffer> trust;
+    std::optional<SaveQuestion> save_question;  ///< AnswerSave answers it.
     std::optional<CollectView> collecting;
     QualityReport report;
     std::vector<std::string> recent;  ///< Project files, the newest first.

@@ -30,7 +30,7 @@ Status write_all(int file, std::span<const std::byte> bytes, const std::string& 
 }
 
 // Pipes and devices cannot be flushed, which is not a failure.
-Status flush(int file, const std::string& path) {
+Status flush_file(int file, const std::string& path) {
     if (fsync(file) != 0 && errno != EINVAL && errno != EROFS && errno != ENOTSUP) {
         return tl::unexpected(system_error(path, "cannot be written", errno));
     }
@@ -48,7 +48,7 @@ Status close_file(int file, const std::string& path) {
 
 Status write_through(int file, std::span<const std::byte> bytes, const std::string& path) {
     Status status = write_all(file, bytes, path);
-    if (status) status = flush(file, path);
+    if (status) status = flush_file(file, path);
     const Status closed = close_file(file, path);
     return status ? closed : status;
 }
@@ -227,9 +227,13 @@ Status TemporaryFile::check_disk() const {
     return write_through(file, kBlock, place_.shown);
 }
 
-Status TemporaryFile::commit() {
+Status TemporaryFile::flush() const {
     WEFT_TRY(file, open(0));
-    WEFT_CHECK_OK(write_through(file, {}, place_.shown));
+    return write_through(file, {}, place_.shown);
+}
+
+Status TemporaryFile::commit() {
+    WEFT_CHECK_OK(flush());
     return commit_unflushed();
 }
 

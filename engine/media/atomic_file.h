@@ -59,7 +59,9 @@ class TemporaryFile {
     [[nodiscard]] Status check_disk() const;
     /// Flushes the file to the disk and gives it its final name.
     [[nodiscard]] Status commit();
-    /// The same without the flush: for caches, which have a checksum and may be lost.
+    /// The two steps of commit(), for a caller that looks at the file it replaces in between.
+    [[nodiscard]] Status flush() const;
+    /// Alone for caches, which have a checksum and may be lost.
     [[nodiscard]] Status commit_unflushed();
 
   private:

@@ -1,5 +1,6 @@
 // The same checks with a project file.
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/cli/cli_fixture.h"
 
@@ -122,6 +123,35 @@ TEST_F(ProjectFile, ARefusedChangeLeavesTheFile) {
     expect_failure(run({"new", kProject, "--plate", "x.mp4"}), 2, {kProject, "--overwrite"});
     EXPECT_EQ(bytes(kProject), before);
     EXPECT_EQ(names("shots"), (Words{"shot.weft"}));
+}
+
+// Each in a process of its own, and all on one file.
+TEST_F(ProjectFile, CommandsAtTheSameTimeLoseNothing) {
+    make_project(1);
+    add_card();
+    constexpr int kWriters = 12;
+    std::vector<std::thread> writers;
+    std::vector<int> exits(kWriters, -1);
+    for (int k = 0; k < kWriters; ++k)
+        writers.emplace_back([&, k] {
+            ProcessOptions own = options_;
+            own.folder = folder_ / ("writer" + std::to_string(k));
+            fs::create_directory(own.folder);
+            const std::string name = "r" + std::to_string(k);
+            const Words add{"region",       "add",     in(kProject),        "--name",
+                            name,           "--matte", "../masks/####.png", "--texture",
+                            "../sample.png"};
+            const Words pin{"region",          "correct", in(kProject), "card",
+                            std::to_string(k), "--pin",   "1,2:3,4"};
+            exits[static_cast<std::size_t>(k)] = run_weft(k % 3 ? add : pin, own).exit;
+        });
+    for (std::thread& writer : writers)
+        writer.join();
+    EXPECT_THAT(exits, ::testing::Each(0));
+    const Json project = Json::parse(bytes(kProject));
+    EXPECT_EQ(project["regions"].size(), 9u);
+    EXPECT_EQ(project["regions"][0]["corrections"].size(), 4u);
+    EXPECT_EQ(names("shots"), (Words{"shot.weft"})) << "no lock and no temporary file stays";
 }
 
 TEST_F(ProjectFile, ValidateFindsWhatIsMissing) {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "app/base/editor_settings.h"
-#include "app/session/recovery.h"
+#include "app/base/recovery.h"
 
 namespace weft {
 namespace {
@@ -44,7 +44,7 @@ TEST_F(EditorFiles, TheNewestSnapshotIsKeptAndGoesWhenItIsNotNeeded) {
     Project project;
     project.plate.path = "/shot/####.png";
     RecoveryWriter writer(folder_.string(), [&] { ++before; });
-    writer.note(project, "/shot/a.weft");
+    writer.note({project, "/shot/a.weft"});
     writer.flush();
     EXPECT_GE(before, 1);
     EXPECT_EQ(writer.take_error(), "");
@@ -59,6 +59,27 @@ TEST_F(EditorFiles, TheNewestSnapshotIsKeptAndGoesWhenItIsNotNeeded) {
     writer.clear();
     writer.flush();
     EXPECT_EQ(files(), 0);
+}
+
+TEST_F(EditorFiles, ASnapshotRemembersWhatItsFileHeld) {
+    Project opened;
+    opened.name = "opened";
+    Project project = opened;
+    project.name = "edited";
+    {
+        RecoveryWriter writer(folder_.string(), {});
+        writer.note({project, "/shot/a.weft", ProjectOnDisk{opened, {0xfedcba9876543210, 7}}});
+    }
+    const std::string own = "recovery-" + std::to_string(getpid()) + ".weft";
+    // As if the process had gone: no process has this number.
+    fs::rename(folder_ / own, folder_ / "recovery-99999999.weft");
+    const auto found = find_recoverable(folder_.string());
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].project, project);
+    EXPECT_EQ(found[0].project_path, "/shot/a.weft");
+    ASSERT_TRUE(found[0].known);
+    EXPECT_EQ(found[0].known->project, opened);
+    EXPECT_EQ(found[0].known->hash, (Hash128{0xfedcba9876543210, 7}));
 }
 
 }  // namespace

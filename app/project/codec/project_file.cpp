@@ -2,17 +2,14 @@
 
 #include <filesystem>
 
-#include "app/project/codec/json_limits.h"
 #include "app/project/codec/project_json.h"
-#include "engine/core/input_file.h"
+#include "app/project/codec/update_project.h"
 #include "engine/media/atomic_file.h"
 
 namespace weft {
 Expected<Project> load_project(const std::string& path) {
-    WEFT_TRY(text, read_file(path, "The project", kMaxJsonBytes));
-    auto project = project_from_json(text);
-    if (!project) return fail_in(std::move(project).error(), path);
-    return project;
+    WEFT_TRY(file, read_project(path));
+    return std::move(file.project);
 }
 
 WriteRule in_place() {

@@ -13,7 +13,8 @@ namespace weft {
 /// permission, not a project, or a newer version). Thread-safe.
 [[nodiscard]] Expected<Project> load_project(const std::string& path);
 
-/// Writes a project file atomically (temporary name, fsync, rename). Errors, with the path:
+/// Writes a project file atomically (temporary name, fsync, rename): a new one, or a file of this
+/// program alone. A project that is changed goes through update_project.h. Errors, with the path:
 /// NoSpace; Unreadable (folder missing or not writable); Usage (a name that is not UTF-8, or the
 /// write rule).
 [[nodiscard]] Status save_project(const std::string& path, const Project& project,

@@ -1,22 +1,26 @@
-#include "app/session/recovery.h"
+#include "app/base/recovery.h"
 
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cinttypes>
 #include <ctime>
 #include <filesystem>
 
 #include "app/project/codec/project_file.h"
+#include "app/project/codec/project_json.h"
 
 namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
 
-// An extra key of snapshots, as JSON text: the path of the project.
+// Extra keys of snapshots, as JSON text: the path of the project, and what its file held.
 constexpr const char* kPathKey = "recovered_from";
+constexpr const char* kKnownKey = "recovered_known";
+constexpr const char* kHashKey = "recovered_known_hash";
 
 std::string json_text(const std::string& text) {
     std::string out = "\"";
@@ -34,6 +38,39 @@ std::string unquoted(const std::string& json) {
         out += json[k];
     }
     return out;
+}
+
+Project with_origin(Snapshot snapshot) {
+    Project out = std::move(snapshot.project);
+    out.extra[kPathKey] = json_text(snapshot.project_path);
+    if (!snapshot.known) return out;
+    if (auto text = project_to_json(snapshot.known->project)) {
+        out.extra[kKnownKey] = std::move(*text);
+        out.extra[kHashKey] = json_text(snapshot.known->hash.hex());
+    }
+    return out;
+}
+
+std::optional<std::string> take_key(Project& project, const char* key) {
+    const auto found = project.extra.find(key);
+    if (found == project.extra.end()) return std::nullopt;
+    std::string text = std::move(found->second);
+    project.extra.erase(found);
+    return text;
+}
+
+void take_origin(RecoveredProject& out) {
+    if (const auto path = take_key(out.project, kPathKey)) out.project_path = unquoted(*path);
+    const auto known = take_key(out.project, kKnownKey), hash = take_key(out.project, kHashKey);
+    if (!known || !hash) return;
+    auto project = project_from_json(*known);
+    ProjectOnDisk file;
+    constexpr int kBoth = 2;
+    if (!project || std::sscanf(hash->c_str(), "\"%16" SCNx64 "%16" SCNx64 "\"", &file.hash.high,
+                                &file.hash.low) != kBoth)
+        return;
+    file.project = std::move(*project);
+    out.known = std::move(file);
 }
 
 std::string time_text(const std::string& file) {
@@ -62,7 +99,7 @@ bool still_runs(int pid) {
 
 }  // namespace
 
-RecoveryWriter::RecoveryWriter(std::string folder, std::function<void()> before_writing)
+RecoveryWriter::RecoveryWriter(const std::string& folder, std::function<void()> before_writing)
     : file_((fs::path(folder) / ("recovery-" + std::to_string(getpid()) + ".weft")).string()),
       before_writing_(std::move(before_writing)) {
     std::error_code error;
@@ -79,10 +116,10 @@ RecoveryWriter::~RecoveryWriter() {
     thread_.join();
 }
 
-void RecoveryWriter::note(Project project, std::string project_path) {
+void RecoveryWriter::note(Snapshot snapshot) {
     {
         const std::lock_guard lock(mutex_);
-        next_.emplace(std::move(project), std::move(project_path));
+        next_ = std::move(snapshot);
         clear_ = false;
     }
     wake_.notify_all();
@@ -122,8 +159,7 @@ void RecoveryWriter::work() {
             fs::remove(file_, error);
         } else {
             if (before_writing_) before_writing_();
-            snapshot->first.extra[kPathKey] = json_text(snapshot->second);
-            written = save_project(file_, snapshot->first, WriteRule::own());
+            written = save_project(file_, with_origin(std::move(*snapshot)), WriteRule::own());
         }
         lock.lock();
         busy_ = false;
@@ -143,16 +179,14 @@ std::vector<RecoveredProject> find_recoverable(const std::string& folder) {
         if (still_runs(pid)) continue;
         auto project = load_project(it->path().string());
         if (!project) continue;
-        RecoveredProject one{it->path().string(), {}, time_text(it->path().string()), *project};
-        if (const auto key = one.project.extra.find(kPathKey); key != one.project.extra.end()) {
-            one.project_path = unquoted(key->second);
-            one.project.extra.erase(key);
-        }
+        RecoveredProject one{it->path().string(), {}, time_text(it->path().string()), *project, {}};
+        take_origin(one);
         found.emplace_back(it->last_write_time(error), std::move(one));
     }
     std::sort(found.begin(), found.end(),
               [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<RecoveredProject> out;
+    out.reserve(found.size());
     for (auto& entry : found)
         out.push_back(std::move(entry.second));
     return out;
