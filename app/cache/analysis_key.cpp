@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 35;
+constexpr int kAnalysisVersion = 36;
 constexpr int kFormVersion = 5;   // of the form alone
 constexpr int kFocusVersion = 1;  // of the focus alone
 

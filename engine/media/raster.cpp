@@ -79,6 +79,13 @@ SampleKind kind_of(const ImageSpec& spec, const Pick& pick) {
     return kind.value_or(SampleKind::kOther);
 }
 
+// Where a format or a file says nothing of it, OpenImageIO takes the colours for associated ones,
+// as OpenEXR defines them.
+AlphaKind alpha_kind_of(const ImageSpec& spec) {
+    return spec.get_int_attribute("oiio:UnassociatedAlpha") != 0 ? AlphaKind::kStraight
+                                                                 : AlphaKind::kAssociated;
+}
+
 bool is_exr(const ImageInput& input) {
     return std::string_view(input.format_name()) == "openexr";
 }
@@ -278,6 +285,7 @@ Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request
     raster.info = info;
     raster.channels = static_cast<int>(pick.channels.size());
     raster.has_alpha = pick.has_alpha;
+    raster.alpha_kind = alpha_kind_of(spec);
     switch (info.kind) {
         case SampleKind::kU8:
             WEFT_CHECK_OK(fill<std::uint8_t>(raster, *input, path, pick, OIIO::TypeUInt8));

@@ -9,6 +9,7 @@
 #include "engine/pipeline/form_pass.h"
 #include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/paper_walker.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/surface_job.h"
@@ -246,7 +247,7 @@ class FrameFiller {
         WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index, frame));
         Matte visible = without_holdout(extent, holdout);
         drop_nonfinite(visible, make_views(*plate, *plan_.display_from_plate).finite);
-        const ImageF3 working = transformed(*plate, *plan_.working_from_plate);
+        WEFT_TRY(working, working_plate(source_, plan_, frame, *plate));
         store_.put_beneath(key, encode(estimate_shading(working, visible,
                                                         shading_options(plan_, source_.size()))));
         return {};

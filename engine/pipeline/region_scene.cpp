@@ -11,6 +11,7 @@
 #include "engine/pipeline/frame_layers.h"
 #include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/history_seams.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_light.h"
@@ -50,7 +51,7 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
         (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
     if (!from_plate) return {};
     WEFT_TRY(plate, source.plate(frame));
-    const ImageF3 working = transformed(*plate, *plan.working_from_plate);
+    WEFT_TRY(working, working_plate(source, plan, frame, *plate));
     WEFT_TRY(shading, region_shading(source, region, store, index, frame, working));
     WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
     WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
@@ -75,7 +76,7 @@ Status take_exposure(const ShotSource& source, const ShotPlan& plan, const Analy
     // A light that is used unchanged has the plate's exposure in it.
     if (!(region.match > 0) || region.exact_light) return {};
     WEFT_TRY(plate, source.plate(frame));
-    const ImageF3 working = transformed(*plate, *plan.working_from_plate);
+    WEFT_TRY(working, working_plate(source, plan, frame, *plate));
     WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
     WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
     scene.exposure = plate_exposure(working, without_holdout(extent, holdout), plan.exposure_greys);

@@ -8,6 +8,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/pipeline/light_pass.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/surface_stop.h"
 #include "engine/pipeline/walk_along.h"
@@ -247,7 +248,7 @@ class Follower {
     Status measure_light(SurfaceJob& job, const SweepFrame& at, const Matte& visible,
                          const LatticeField& prev_from_cur) {
         if (!job.shading) return {};
-        const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
+        WEFT_TRY(working, working_plate(context_.source, context_.plan, at.frame, *at.plate));
         const Size size = working.size();
         const ShadingOptions options = shading_options(context_.plan, size);
         const SurfaceSample sample =
