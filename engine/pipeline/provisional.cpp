@@ -86,7 +86,7 @@ class FrameFiller {
         if (cancel_.cancelled()) return cancelled(cancel_);
         const RegionPlan& region = region_at(index);
         const int reference = region.reference_frames.front();
-        for (const int at : {frame_, reference}) {
+        for (const int at : {frame_, reference, region.light_reference()}) {
             WEFT_TRY(there, fill_mattes(index, at));
             if (!there) return false;
         }
@@ -94,7 +94,7 @@ class FrameFiller {
         WEFT_TRY(placed, fill_texture(index, reference));
         if (!placed) return false;
         WEFT_CHECK_OK(fill_light(index, frame_));
-        WEFT_CHECK_OK(fill_light(index, reference));
+        WEFT_CHECK_OK(fill_light(index, region.light_reference()));
         WEFT_CHECK_OK(fill_form(index, reference));
         fill_camera(index, reference);
         WEFT_CHECK_OK(fill_focus(index));

@@ -57,6 +57,7 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
     WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
     const Matte visible = without_holdout(extent, holdout);
     scene.reference_shading = median_shading(*shading, visible);
+    scene.reference_range = {light_range(working, {}), light_range(working, visible)};
     if (region.tints()) {
         scene.reference_colour = region.cast ? light_colour(working, visible, *shading)
                                              : daylight_colour(find_daylight(working));
@@ -205,8 +206,9 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
         WEFT_TRY(degrees, decode_number(bytes));
         scene.shutter_deg = degrees;
     }
-    WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, reference, scene));
-    WEFT_CHECK_OK(take_exposure(source, plan, store, region_index, reference, scene));
+    const int lit = region.light_reference();
+    WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, lit, scene));
+    WEFT_CHECK_OK(take_exposure(source, plan, store, region_index, lit, scene));
     if (is_focus_followed(region)) {
         WEFT_TRY(extent, extent_matte(source, plan, store, region_index, reference));
         take_texture_focus(plan, region, extent, scene);

@@ -118,6 +118,7 @@ class FrameRenderer {
     std::unique_ptr<FrameCanvas> device_;
     Recti device_box_;  // where the canvas on the device differs from canvas_
     bool device_failed_ = false;
+    bool burnt_out_ = false;
 };
 
 const RegionPlan& region_of(const ShotPlan& plan, int index) {
@@ -278,12 +279,9 @@ Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, con
     layer.old_surface = old_surface;
     layer.multiply = grade_on(region_of(plan_, index), scene).multiply;
     if (const auto& shading = light.shading()) {
-        layer.gain = GainRequest{shading->value,
-                                 shading->downscale,
-                                 scene.reference_shading,
-                                 light.strength(),
-                                 region_of(plan_, index).light.least_gain,
-                                 region_of(plan_, index).light.most_gain};
+        layer.gain = GainRequest{
+            shading->value,           shading->downscale,         scene.reference_shading,
+            light.options().strength, light.options().least_gain, light.options().most_gain};
     }
     device_box_ = device_box_.united(box);
     return of_device(device_->add(layer));
@@ -301,6 +299,13 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
     lit_ = lit_ || region_of(plan_, index).lights() || region_of(plan_, index).grades();
     WEFT_TRY(light, FrameLight::find({source_, plan_, store_, index, frame_, working_, scene,
                                       mattes.old(), box}));
+    if (light.all_white()) {
+        burnt_out_ = true;
+        return {};
+    }
+    device_failed_ = device_ && light.white() > 0;  // which no device adds
+    if (device_failed_)
+        return fail(ErrorCode::kNoBackend, "White over a frame is added on the CPU.");
     RegionSurface surface(plan_, index, scene, store_, backend_, frame_, plate_->size());
     TextureCoords exact;
     if (region_of(plan_, index).has_uv) {
@@ -351,6 +356,7 @@ Expected<RenderedFrame> FrameRenderer::finish() {
         }
     }
     out.touched = std::move(touched_);
+    out.burnt_out = burnt_out_;
     return out;
 }
 
