@@ -271,14 +271,15 @@ class Follower {
         ImageF3 display = transformed(*at.plate, *context_.plan.display_from_plate);
         Matte metered(display.size(), 255);
         drop_nonfinite(metered, at.views->finite);
-        if (at.frame == job.primary) {
-            job.meter.emplace(context_.plan.plate_quantum);
-        } else {
+        if (at.frame == job.primary) job.meter.emplace(context_.plan.plate_quantum);
+        if (at.shows() && !job.last_display.empty()) {
             job.meter->add(display, job.last_display, metered, job.last_metered,
                            prev_from_cur.dense(rect_of(display.size())));
         }
-        job.last_display = std::move(display);
-        job.last_metered = std::move(metered);
+        if (at.shows()) {
+            job.last_display = std::move(display);
+            job.last_metered = std::move(metered);
+        }
         if (at.frame < job.plan->grain_frames.back()) return {};
         const GrainModel grain = job.meter->model();
         job.meter.reset();
@@ -290,7 +291,8 @@ class Follower {
                            const LatticeField& prev_from_cur) {
         const std::vector<int>& frames = job.plan->shutter_evidence;
         if (!job.shutter || at.frame > frames.back()) return {};
-        if (at.frame > job.primary) job.shutter_meter.add(at.views->luma, visible, prev_from_cur);
+        if (at.frame > job.primary && at.shows())
+            job.shutter_meter.add(at.views->luma, visible, prev_from_cur);
         if (at.frame < frames.back()) return {};
         return keep(job, job.primary, AnalysisKind::kShutter, encode(job.shutter_meter.degrees()));
     }
