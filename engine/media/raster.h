@@ -25,6 +25,8 @@ struct RasterInfo {
     double pixel_aspect = 1;            ///< Width of a pixel over its height.
     FileColor color = {};
     int orientation = 1;  ///< As stored in the file (orientation.h); already applied.
+    /// Of a stereo EXR, the one that R, G and B belong to first; probe_raster() only.
+    std::vector<std::string> views = {};
 };
 
 /// The aspect, or 1 for a value that no lens has.
