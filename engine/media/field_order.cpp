@@ -10,6 +10,8 @@ namespace weft {
 namespace {
 
 constexpr double kLeastMotion = 0.25;  // codes, mean over the picture: less is noise
+constexpr double kOverChance = 5;
+constexpr int kFewest = 2;  // frames of two moments
 // Of the asymmetry of a frame, 0 to 1.
 constexpr double kOneMoment = 0.3, kTwoMoments = 0.55;
 
@@ -35,7 +37,9 @@ void FieldMeter::add(Matte luma) {
         const double upper_later = difference(before_, luma, 1) - within;
         const double lower_later = difference(luma, before_, 1) - within;
         const double motion = std::abs(upper_later) + std::abs(lower_later);
-        if (motion > kLeastMotion) {
+        // What chance makes of so many pixels.
+        const double chance = within / std::sqrt(0.5 * luma.width() * luma.height());
+        if (motion > std::max(kLeastMotion, kOverChance * chance)) {
             const double asymmetry = std::abs(upper_later - lower_later) / motion;
             progressive_ += asymmetry < kOneMoment;
             const bool two = asymmetry > kTwoMoments;
@@ -51,7 +55,8 @@ Fields FieldMeter::fields(double least_share) const {
     const int interlaced = std::max(upper_first_, lower_first_);
     const int told = progressive_ + interlaced;
     if (told == 0) return Fields::kUnknown;
-    return interlaced > least_share * told ? Fields::kInterlaced : Fields::kProgressive;
+    return interlaced >= kFewest && interlaced > least_share * told ? Fields::kInterlaced
+                                                                    : Fields::kProgressive;
 }
 
 }  // namespace weft

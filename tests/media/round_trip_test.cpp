@@ -148,6 +148,7 @@ TEST_F(RoundTrip, EachFormatHoldsColoursInItsOwnConvention) {
         WriteOptions options = at(depth);
         options.alpha = given;
         options.source = source;
+        options.rule.existing = Existing::kReplace;
         const ImageF3 image(4, 4, given == AlphaKind::kStraight ? 0.5f : 0.2f);
         EXPECT_TRUE(write_image(in(name), image, alpha, options));
         return read_image(in(name)).value();
@@ -170,6 +171,7 @@ TEST_F(RoundTrip, EachFormatHoldsColoursInItsOwnConvention) {
     }
     // Only a file that can hold light without a body keeps colour under alpha 0 apart from it.
     WriteOptions options = at(PixelDepth::kFloat);
+    options.rule.existing = Existing::kReplace;
     ImageF1 some = alpha;
     some.at(2, 2) = 0;
     ASSERT_TRUE(write_image(in("c.exr"), ImageF3(4, 4, 0.5f), some, options));
@@ -202,7 +204,7 @@ TEST_F(RoundTrip, JpegIsCloseAndNotSubsampled) {
             image.at(x, y, 2) = x == 30 ? 0.0f : 0.6f;
         }
     }
-    ASSERT_TRUE(write_image(in("a.jpg"), image, ImageF1(64, 64, 0.5f), at(PixelDepth::kU8)));
+    ASSERT_TRUE(write_image(in("a.jpg"), image, ImageF1(64, 64, 1.0f), at(PixelDepth::kU8)));
     const PlateFrame back = read_image(in("a.jpg")).value();
     EXPECT_TRUE(back.alpha.empty());
     double worst = 0;
