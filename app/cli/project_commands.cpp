@@ -254,6 +254,34 @@ void tell(const Issue& issue, Answer& answer) {
                                      {"remedy", issue.what_to_do}});
 }
 
+// Mattes and holdouts that are damaged or of another size than the plate are found by reading them:
+// painted ones all, of those by frame some.
+Status read_some_mattes(const Shot& shot) {
+    constexpr std::size_t kMost = 12;
+    const std::vector<int>& frames = shot.plan.frames;
+    const std::size_t count = std::min(kMost, frames.size());
+    for (std::size_t k = 0; k < shot.plan.regions.size(); ++k) {
+        const auto read = [&]() -> Status {
+            const RegionPlan& region = shot.plan.regions[k];
+            const int index = static_cast<int>(k);
+            for (const int key : region.matte_keys)
+                WEFT_CHECK_OK(shot.source->matte_key(index, key));
+            for (std::size_t i = 0; i < count; ++i) {
+                const int frame =
+                    count == 1 ? frames[0] : frames[i * (frames.size() - 1) / (count - 1)];
+                if (!region.propagated()) WEFT_CHECK_OK(shot.source->matte(index, frame));
+                WEFT_CHECK_OK(shot.source->holdout(index, frame));
+            }
+            return {};
+        };
+        if (Status done = read(); !done) {
+            const std::string& name = shot.project.regions[shot.region_index[k]]->name;
+            return fail_in(std::move(done).error(), "Region '" + name + "'");
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 Error error_of(const Issue& issue) {
@@ -282,6 +310,7 @@ CommandResult validate_command(const std::string& path, bool files) {
     }
     if (files) {
         WEFT_TRY(shot, open_shot(resolve_paths(project, project_dir(path))));
+        WEFT_CHECK_OK(read_some_mattes(*shot));
         WEFT_CHECK_OK(check_texture_licences(*shot));
         for (const std::string& warning : shot->warnings) {
             answer.text += "warning: " + warning + "\n";

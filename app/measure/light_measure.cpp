@@ -11,6 +11,7 @@
 #include "engine/media/sequence_pattern.h"
 #include "engine/metrics/region.h"
 #include "engine/pipeline/analyse.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/surface_pass.h"
@@ -153,7 +154,7 @@ Expected<std::optional<ImageF1>> LightMeter::truth(int frame) const {
     const int reference = shot_->plan.regions.front().reference_frames.front();
     if (!truth_shot_ || (truth_is_still_ && frame != reference)) return Found(std::nullopt);
     WEFT_TRY(plate, truth_shot_->source->plate(frame));
-    const ImageF3 working = transformed(*plate, *truth_shot_->plan.working_from_plate);
+    WEFT_TRY(working, working_plate(*truth_shot_->source, truth_shot_->plan, frame, *plate));
     WEFT_TRY(shading, region_shading(*truth_shot_->source, truth_shot_->plan.regions.front(),
                                      *store_, 0, frame, working));
     return Found(full_size(*shading));

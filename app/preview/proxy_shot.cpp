@@ -76,6 +76,12 @@ class ProxySource final : public ShotSource {
     [[nodiscard]] Expected<std::shared_ptr<const ImageF3>> plate(int frame) const override {
         return plates_.plate(*shot_.source, frame, factor_);
     }
+    [[nodiscard]] Expected<PlateAlpha> alpha(int frame) const override {
+        WEFT_TRY(full, shot_.source->alpha(frame));
+        if (full.coverage)
+            full.coverage = std::make_shared<const ImageF1>(block_means(*full.coverage, factor_));
+        return full;
+    }
     [[nodiscard]] Expected<Matte> matte(int region, int frame) const override {
         if (!shot_.plan.regions[static_cast<std::size_t>(region)].propagated()) {
             WEFT_TRY(matte, shot_.source->matte(region, frame));

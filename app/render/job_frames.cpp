@@ -22,7 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 Status write_frame(const JobSetup& setup, int frame, const std::string& path,
-                   const RenderedFrame& rendered, const ImageF1& alpha) {
+                   const RenderedFrame& rendered, const PlateFrame& plate) {
     const Shot& shot = *setup.shot;
     const WriteOptions write = setup.write_of(frame);
     std::vector<ExrLayer> layers;
@@ -38,9 +38,20 @@ Status write_frame(const JobSetup& setup, int frame, const std::string& path,
     if (!is_exr(shot.project.output.path)) {
         WriteOptions kept = write;
         kept.source = source;
-        return write_image(path, rendered.pixels, alpha, kept);
+        kept.alpha = plate.alpha_kind;
+        return write_image(path, rendered.pixels, plate.alpha, kept);
     }
-    ExrFrame exr{rendered.pixels, alpha, {}, {}, {}, std::move(layers)};
+    ImageF3 associated;
+    if (!plate.alpha.empty() && plate.alpha_kind == AlphaKind::kStraight) {
+        associated = rendered.pixels;
+        associate(associated, plate.alpha);
+    }
+    ExrFrame exr{associated.empty() ? rendered.pixels : associated,
+                 plate.alpha,
+                 {},
+                 {},
+                 {},
+                 std::move(layers)};
     const std::string& layer = shot.project.plate.layer;
     if (is_exr_with_colour(source, layer)) {
         exr.source = source;
@@ -80,11 +91,11 @@ Status make_frame(const FrameInputs& in, FrameResult& result) {
     WEFT_TRY(rendered,
              render_frame(*shot.source, in.plan, in.scenes, in.store, *in.setup.backend, shown));
     WEFT_TRY(decoded, shot.plate->read_shared(result.frame));
-    WEFT_CHECK_OK(write_frame(in.setup, result.frame, result.path, rendered, decoded->alpha));
+    WEFT_CHECK_OK(write_frame(in.setup, result.frame, result.path, rendered, *decoded));
     result.above_one = rendered.above_one;
     result.filled = rendered.filled;
     result.nonfinite = decoded->nonfinite;
-    result.untouched = matte_bounds(rendered.touched).empty();
+    result.untouched = !rendered.burnt_out && matte_bounds(rendered.touched).empty();
     return {};
 }
 
@@ -116,6 +127,8 @@ struct ReviewMovie {
     // Reads the frame back from disk, so that the movie of a resumed run is the same.
     [[nodiscard]] Expected<ImageF3> display(const Shot& shot, const FrameResult& frame) const {
         WEFT_TRY(written, read_image(frame.path));
+        if (!written.alpha.empty() && written.alpha_kind == AlphaKind::kStraight)
+            associate(written.rgb, written.alpha);  // over black
         display_from_out->apply(written.rgb);
         if (shot.project.output.burn_in) burn_in(written.rgb, burnt_text(shot, frame.frame));
         return std::move(written.rgb);

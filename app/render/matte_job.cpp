@@ -2,10 +2,13 @@
 
 #include "app/exchange/input_files.h"
 #include "app/render/render_job.h"
+#include "app/shot/frame_plan.h"
+#include "engine/core/setting.h"
 #include "engine/mask/keyframe_advice.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/pipeline/matte_pass.h"
+#include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 
 namespace weft {
@@ -36,6 +39,39 @@ void mark_suggestions(std::vector<MatteResult>& results) {
     const std::vector<int> suggested = suggest_keyframes(std::move(frames), painted);
     for (MatteResult& r : results)
         r.suggested = std::find(suggested.begin(), suggested.end(), r.frame) != suggested.end();
+}
+
+bool is_empty(const Matte& matte) {
+    return matte_bounds(matte).empty();
+}
+
+// The frames from which on a matte is lost because a new scene begins there, or before which it is,
+// propagated backwards. `lost`: ascending.
+std::vector<int> cuts_beside(const Shot& shot, const std::vector<int>& lost) {
+    const auto is_lost = [&](int frame) {
+        return std::binary_search(lost.begin(), lost.end(), frame);
+    };
+    std::vector<int> first;  // of the new scene, at either end of what is lost
+    for (const int frame : lost) {
+        if (!is_lost(frame - 1)) first.push_back(frame);
+        if (!is_lost(frame + 1)) first.push_back(frame + 1);
+    }
+    // They may not have been read, if the mattes were found before.
+    for (const int frame : first)
+        for (const int at : {frame - 1, frame})
+            static_cast<void>(shot.source->plate(at));
+    const std::vector<int> cuts = shot.cuts->cuts();
+    std::erase_if(first,
+                  [&](int frame) { return !std::binary_search(cuts.begin(), cuts.end(), frame); });
+    return first;
+}
+
+std::string cut_warning(const std::vector<int>& cuts) {
+    return "A new scene begins at " + frames_text(cuts) +
+           ". The matte is not propagated across a cut: it is empty there, with confidence 0. Add "
+           "a "
+           "keyframe in each scene that shows the surface" +
+           by({{setting::kMatte}}) + ".";
 }
 
 }  // namespace
@@ -74,6 +110,7 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
     WEFT_CHECK_OK(propagate_mattes(context, *store));
 
     std::vector<MatteResult> results;
+    std::vector<int> lost;
     for (const int frame : plan.frames) {
         if (cancel.cancelled()) return cancelled(cancel);
         StoredMatte matte;
@@ -85,12 +122,15 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
             WEFT_TRY(read, shot->source->matte(0, frame));
             matte.matte = std::move(read);
         }
+        if (matte.confidence == 0 && is_empty(matte.matte)) lost.push_back(frame);
         const std::vector<int>& keys = plan.regions[0].matte_keys;
         results.push_back({frame, pattern.path_for(frame), matte.confidence,
                            std::binary_search(keys.begin(), keys.end(), frame)});
         const Matte edged = with_edge(std::move(matte.matte), plan.regions[0].matte_edge.at(frame));
         WEFT_CHECK_OK(write_matte(results.back().path, edged, rule));
     }
+    if (const std::vector<int> cuts = cuts_beside(*shot, lost); !cuts.empty())
+        warnings.push_back(cut_warning(cuts));
     WEFT_CHECK_OK(check_unchanged(shot->inputs->changed()));
     const std::vector<std::string> remarks = store->remarks();
     warnings.insert(warnings.end(), remarks.begin(), remarks.end());

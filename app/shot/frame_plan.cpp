@@ -138,8 +138,8 @@ Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> 
     return both;
 }
 
-// The run of frames around `reference`, at most `reach` on each side, for which all files exist. A
-// dangling link counts as missing.
+}  // namespace
+
 Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, int reference,
                                int reach, const std::vector<int>& leave_out) {
     std::vector<int> frames = plate.frames();
@@ -174,6 +174,8 @@ Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, i
         ++run.last;
     return run;
 }
+
+namespace {
 
 // The files that a frame's focus is read from, besides the plate.
 std::vector<std::string> focus_files(const Region& region) {

@@ -7,6 +7,7 @@
 #include "app/project/project.h"
 #include "engine/media/frame_reader.h"
 #include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_plan.h"
 
 namespace weft {
@@ -24,6 +25,12 @@ namespace weft {
 /// have the files that will be read. Errors: MissingFrames, naming the pattern and the frames.
 [[nodiscard]] Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan& shot,
                                  const FrameReader& plate);
+
+/// The run of frames around `reference`, at most `reach` on each side, for which all files exist; a
+/// dangling link counts as missing. Ends before a frame of `leave_out`. Errors: of the patterns.
+[[nodiscard]] Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate,
+                                             int reference, int reach,
+                                             const std::vector<int>& leave_out);
 
 /// Up to twelve frames for separating a region's paint from light: spread over the run of frames
 /// with all files, within 48 of the first reference frame. They do not depend on the rendered

@@ -36,6 +36,13 @@ class ProjectSource final : public ShotSource {
         return std::shared_ptr<const ImageF3>(decoded, &decoded->rgb);
     }
 
+    [[nodiscard]] Expected<PlateAlpha> alpha(int frame) const override {
+        WEFT_TRY(decoded, plate_->read_shared(frame));
+        if (!has_coverage(decoded->alpha)) return PlateAlpha();
+        return PlateAlpha{std::shared_ptr<const ImageF1>(decoded, &decoded->alpha),
+                          decoded->alpha_kind};
+    }
+
     [[nodiscard]] Expected<Matte> matte(int region, int frame) const override {
         return read(*at(region).matte, frame);
     }
@@ -155,6 +162,14 @@ class ProjectSource final : public ShotSource {
         WEFT_TRY(picture, read_light_pass(path, albedo ? LightPass::kAlbedo : LightPass::kLighting,
                                           light.pass_layer));
         WEFT_CHECK_OK(check_size(path, picture));
+        if (picture.alpha_kind == AlphaKind::kAssociated) {
+            // The passes of a renderer are associated by the alpha of its picture.
+            WEFT_TRY(of_plate, alpha(frame));
+            if (!picture.alpha.empty())
+                unassociate(picture.rgb, picture.alpha);
+            else if (of_plate.associated())
+                unassociate(picture.rgb, *of_plate.coverage);
+        }
         const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
         WEFT_TRY(to_linear, make_color_transform({coded ? "srgb" : "linear"}, {"linear"}));
         to_linear->apply(picture.rgb);

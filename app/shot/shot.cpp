@@ -9,6 +9,7 @@
 #include "app/shot/missing_frames.h"
 #include "app/shot/project_source.h"
 #include "app/shot/region_projection.h"
+#include "app/shot/region_reference.h"
 #include "app/shot/settled_region.h"
 #include "app/shot/shot_inputs.h"
 #include "app/shot/shown_sample.h"
@@ -180,7 +181,9 @@ class ShotOpener {
         WEFT_CHECK_OK(check_crypto_names(region, shot_.plate->frames()));
         WEFT_CHECK_OK(project_mattes(*region.matte, *region.holdouts, plan));
         WEFT_CHECK_OK(project_zones(*region.zones, plan));
-        WEFT_CHECK_OK(add_reference(region, plan));
+        WEFT_TRY(reference, add_reference(region, *shot_.plate, looks(), options_.leave_out, plan,
+                                          shot_.notes));
+        shot_.references.push_back(reference);
         // Corrected frames also anchor the texture.
         project_corrections(region.corrections, plan);
         WEFT_CHECK_OK(project_motion(region.motion, plan));
@@ -226,25 +229,6 @@ class ShotOpener {
     }
 
     [[nodiscard]] MatteLooks looks() const { return {options_.visibility.get(), &shot_.painted}; }
-
-    Status add_reference(const Region& region, RegionPlan& plan) {
-        WEFT_CHECK_OK(check_named_frames(region, *shot_.plate));
-        plan.reference_frames = region.reference_frames;
-        if (plan.reference_frames.empty()) {
-            WEFT_TRY(chosen, choose_reference(region, *shot_.plate, looks()));
-            plan.reference_frames = {chosen.frame};
-            if (chosen.frame != chosen.first) {
-                shot_.notes.push_back("Region '" + region.name + "': the reference frame is " +
-                                      std::to_string(chosen.frame) +
-                                      ", because the surface is hardly visible on frame " +
-                                      std::to_string(chosen.first) + ". Set another if needed" +
-                                      by({{setting::kReferenceFrame}}) + ".");
-            }
-        }
-        shot_.references.push_back(
-            {plan.reference_frames.front(), region.reference_frames.empty(), false, {}});
-        return {};
-    }
 
     // A reference frame set by the user may not show the region.
     void look_at_reference(const Region& region) {

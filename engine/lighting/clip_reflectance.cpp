@@ -21,6 +21,8 @@ constexpr float kPeriods = 1.0f;     // features up to this many periods wide ar
 // Of the pattern's deviation: what a blur may leave of it, and what is light for certain.
 constexpr double kRemainsOfPattern = 2.0, kMoreThanPattern = 3.0;
 constexpr int kLevelRounds = 3, kLevelStep = 3;  // rounds, and pixels between samples
+// ln light below the brightest frame's: what a fade leaves of the pattern is mostly noise.
+constexpr float kFaded = 3.0f;
 
 // Quantiles, as a share of the values below.
 using Share = std::array<std::ptrdiff_t, 2>;
@@ -190,6 +192,9 @@ ClipReflectance ReflectanceGatherer::finish() {
     for (const Part& part : parts_)
         out.box = out.box.united(part.box);
     find_levels(out.box);
+    const auto darker = [](const Part& a, const Part& b) { return a.level < b.level; };
+    const float full = std::max_element(parts_.begin(), parts_.end(), darker)->level;
+    std::erase_if(parts_, [&](const Part& part) { return part.level < full - kFaded; });
     // The surface without moving shadows. The light that remains does not move with time; it is
     // separated from the pattern as in a single frame.
     SurfaceSample still;

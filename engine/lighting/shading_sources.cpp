@@ -64,11 +64,24 @@ void measure(Shading& shading, int band, const Value& value) {
         shading.value.data()[i] = std::max(kDarkest, shading.value.data()[i]);
 }
 
-// A shading at full size from `value(x, y)`. Values not above 0 are unknown.
+// A shading at full size from `value(x, y)`. Values not above 0 are unknown, unless all of them are
+// black: then there is no light.
 template <class Value>
 Shading full_shading(Size size, const Value& value) {
     Shading shading{ImageF1(size, 1.0f), 1, size};
     if (size.empty()) return shading;
+    bool any_light = false, black = false;
+    for (int y = 0; y < size.height && !any_light; ++y) {
+        for (int x = 0; x < size.width && !any_light; ++x) {
+            const float here = value(x, y);
+            any_light = std::isfinite(here) && here > 0;
+            black = black || here == 0;
+        }
+    }
+    if (black && !any_light) {
+        shading.value = ImageF1(size, kDarkest);
+        return shading;
+    }
     measure(shading, 16, [&](int x, int y) {
         const float light = value(x, y);
         return std::isfinite(light) && light > 0 ? light : -1.0f;
@@ -87,7 +100,7 @@ Shading shading_from_albedo(ViewF3 linear_plate, ViewF3 albedo) {
     constexpr float kBlack = 0.004f;  // an 8-bit albedo is not reliable below
     return full_shading(linear_plate.size(), [&](int x, int y) {
         const float paint = luma_709(albedo.pixel(x, y));
-        return paint > kBlack ? luma_709(linear_plate.pixel(x, y)) / paint : 0.0f;
+        return paint > kBlack ? luma_709(linear_plate.pixel(x, y)) / paint : -1.0f;
     });
 }
 

@@ -62,7 +62,9 @@ void keep_shot_attributes(const std::string& source, ImageSpec& spec) {
 ImageSpec spec_of(const Samples& samples, const WriteOptions& options, const std::string& format) {
     ImageSpec spec(samples.size.width, samples.size.height, samples.channels,
                    type_of(samples.kind));
-    spec.attribute("oiio:UnassociatedAlpha", 1);  // the samples go into the file as they are
+    // The samples go into the file as they are; a TIFF declares how they are meant.
+    if (format != "tiff" || samples.alpha == AlphaKind::kStraight)
+        spec.attribute("oiio:UnassociatedAlpha", 1);
     // OpenImageIO would write the current time, and the same frame would differ between runs.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
     if (options.pixel_aspect != 1)

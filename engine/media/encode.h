@@ -17,6 +17,7 @@ struct Samples {
     int channels = 0;
     SampleKind kind = SampleKind::kU8;
     const void* data = nullptr;
+    AlphaKind alpha = AlphaKind::kStraight;  ///< What a TIFF is tagged with.
 };
 
 /// Encodes by the extension of `path` and writes atomically. Errors: as write_image().

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/alpha.h"
 #include "engine/core/error.h"
 #include "engine/core/hash.h"
 #include "engine/core/image.h"
@@ -19,8 +20,9 @@ enum class PixelDepth { kU8, kU16, kHalf, kFloat };
 /// One decoded frame. Integer depths are scaled to [0, 1] by 1/255 or 1/65535, so that writing the
 /// same depth gives the same codes back; half and float keep the file's values.
 struct PlateFrame {
-    ImageF3 rgb;    ///< H×W×3; a grey file's value is in all three.
-    ImageF1 alpha;  ///< H×W; empty if the file has none.
+    ImageF3 rgb;                                  ///< H×W×3; a grey file's value is in all three.
+    ImageF1 alpha;                                ///< H×W; empty if the file has none.
+    AlphaKind alpha_kind = AlphaKind::kStraight;  ///< Of rgb, as the file holds it.
     PixelDepth depth = PixelDepth::kU8;
     std::int64_t nonfinite = 0;  ///< Pixels with a NaN or infinite component.
     FileColor color = {};        ///< The file's colour information.

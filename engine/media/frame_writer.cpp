@@ -155,11 +155,49 @@ std::unique_ptr<T[]> pack(ViewF3 rgb, ViewF1 alpha, Convert convert) {
     return out;
 }
 
+AlphaKind written_alpha(const std::string& path, const WriteOptions& options) {
+    switch (format_of(path)) {
+        case Format::kTiff:
+            return format_of(options.source) == Format::kTiff ? options.alpha
+                                                              : AlphaKind::kStraight;
+        case Format::kExr:
+        case Format::kDpx:
+        case Format::kJpeg:  // over black, since it has no alpha
+            return AlphaKind::kAssociated;
+        case Format::kPng:
+        case Format::kUnknown:
+            break;
+    }
+    return AlphaKind::kStraight;
+}
+
 template <class T, class Convert>
 Status pack_and_write(const std::string& path, ViewF3 rgb, ViewF1 alpha, SampleKind kind,
                       const WriteOptions& options, Convert convert) {
     const std::unique_ptr<T[]> samples = pack<T>(rgb, alpha, convert);
-    return write_samples(path, {rgb.size(), alpha.empty() ? 3 : 4, kind, samples.get()}, options);
+    return write_samples(
+        path,
+        {rgb.size(), alpha.empty() ? 3 : 4, kind, samples.get(), written_alpha(path, options)},
+        options);
+}
+
+Status write_as_given(const std::string& path, ViewF3 rgb, ViewF1 alpha,
+                      const WriteOptions& options) {
+    switch (options.depth) {
+        case PixelDepth::kU8:
+            return pack_and_write<std::uint8_t>(path, rgb, alpha, SampleKind::kU8, options,
+                                                [](float v) { return code_of<std::uint8_t>(v); });
+        case PixelDepth::kU16:
+            return pack_and_write<std::uint16_t>(path, rgb, alpha, SampleKind::kU16, options,
+                                                 [](float v) { return code_of<std::uint16_t>(v); });
+        case PixelDepth::kHalf:
+            return pack_and_write<float>(path, rgb, alpha, SampleKind::kHalf, options,
+                                         [](float v) { return stored_as_half(v); });
+        case PixelDepth::kFloat:
+            break;
+    }
+    return pack_and_write<float>(path, rgb, alpha, SampleKind::kFloat, options,
+                                 [](float v) { return v; });
 }
 
 }  // namespace
@@ -200,22 +238,17 @@ Status write_image(const std::string& path, ViewF3 rgb, ViewF1 alpha, const Writ
         return fail(ErrorCode::kUsage,
                     path + ": the picture is empty or its alpha has another size.");
     }
-    if (format_of(path) == Format::kJpeg) alpha = {};
-    switch (options.depth) {
-        case PixelDepth::kU8:
-            return pack_and_write<std::uint8_t>(path, rgb, alpha, SampleKind::kU8, options,
-                                                [](float v) { return code_of<std::uint8_t>(v); });
-        case PixelDepth::kU16:
-            return pack_and_write<std::uint16_t>(path, rgb, alpha, SampleKind::kU16, options,
-                                                 [](float v) { return code_of<std::uint16_t>(v); });
-        case PixelDepth::kHalf:
-            return pack_and_write<float>(path, rgb, alpha, SampleKind::kHalf, options,
-                                         [](float v) { return stored_as_half(v); });
-        case PixelDepth::kFloat:
-            break;
-    }
-    return pack_and_write<float>(path, rgb, alpha, SampleKind::kFloat, options,
-                                 [](float v) { return v; });
+    const AlphaKind wanted = written_alpha(path, options);
+    const ViewF1 kept = format_of(path) == Format::kJpeg ? ViewF1() : alpha;
+    if (alpha.empty() || wanted == options.alpha) return write_as_given(path, rgb, kept, options);
+    ImageF3 converted(rgb.size());
+    for (int y = 0; y < rgb.height(); ++y)
+        std::copy_n(rgb.row(y), 3 * static_cast<std::ptrdiff_t>(rgb.width()), converted.row(y));
+    if (wanted == AlphaKind::kAssociated)
+        associate(converted, alpha);
+    else
+        unassociate(converted, alpha);
+    return write_as_given(path, converted, kept, options);
 }
 
 Status write_matte(const std::string& path, ViewU8x1 matte, const WriteRule& rule) {

@@ -29,6 +29,7 @@ struct WriteOptions {
     /// The plate's file. A DPX keeps the shot's data of its header: time code, key code, frame
     /// rate, position in the sequence, camera. Empty, or not a DPX: none.
     std::string source = {};
+    AlphaKind alpha = AlphaKind::kStraight;  ///< Of the colours to write; unused without an alpha.
     WriteRule rule = {};
 };
 
@@ -42,11 +43,13 @@ struct WriteOptions {
 
 /// Rounds to the nearest code (half up) once, clamps integers to their range, writes to a temporary
 /// name beside `path`, and renames it. NaN becomes 0 in an integer file; a finite value beyond the
-/// range of half becomes the largest half, and infinity stays. `alpha` may be empty; JPEG ignores
-/// it. The file does not depend on the time, so the same pixels give the same bytes. Errors: Usage
-/// (see check_format, and options.rule), NoSpace (disk full, quota), Unreadable (folder missing or
-/// not writable), RenderFailed (the file reads back differently). After an error there is no new
-/// file, and an older one at `path` is unchanged.
+/// range of half becomes the largest half, and infinity stays. `alpha` may be empty. With one, the
+/// colours are written as the format holds them, converted from options.alpha: straight in a PNG,
+/// associated in an EXR or DPX, as options.source is tagged in a TIFF (straight if that is no
+/// TIFF), over black in a JPEG, which has no alpha. The file does not depend on the time, so the
+/// same pixels give the same bytes. Errors: Usage (see check_format, and options.rule), NoSpace
+/// (disk full, quota), Unreadable (folder missing or not writable), RenderFailed (the file reads
+/// back differently). After an error there is no new file, and an older one at `path` is unchanged.
 [[nodiscard]] Status write_image(const std::string& path, ViewF3 rgb, ViewF1 alpha,
                                  const WriteOptions& options);
 /// Coverage as 8-bit grey: PNG or TIFF (Usage for JPEG, which would blur it). Errors: as

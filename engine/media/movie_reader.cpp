@@ -12,6 +12,7 @@
 #include "engine/core/text.h"
 #include "engine/media/frame_pacing.h"
 #include "engine/media/movie_decoder.h"
+#include "engine/media/movie_fields.h"
 #include "engine/media/movie_pixels.h"
 #include "engine/media/plate_decode.h"
 #include "engine/media/plates.h"
@@ -89,6 +90,7 @@ struct MovieFacts {
     int first_damaged = 0;  ///< Counted from 0.
     bool high_dynamic_range = false;
     bool variable_rate = false;
+    bool only_flagged_interlaced = false;  ///< The pictures are progressive.
     double shortest_s = 0, longest_s = 0;  ///< For how long single frames are shown.
 };
 
@@ -159,6 +161,11 @@ class MoviePlate final : public FrameReader {
                             " is an HDR movie (PQ or HLG), whose values are taken as they stand. "
                             "Convert it to numbered EXR frames to keep its colours.");
         }
+        if (facts_.only_flagged_interlaced) {
+            found.push_back(path_ +
+                            " is flagged as interlaced, but its pictures are progressive: each "
+                            "shows one moment. They are used as they are.");
+        }
         if (facts_.variable_rate) {
             char text[64];
             std::snprintf(text, sizeof text, "%.1f to %.1f ms each", 1000 * facts_.shortest_s,
@@ -196,12 +203,9 @@ class MoviePlate final : public FrameReader {
 Status count_frames(MovieDecoder& decoder, const AVFrame* frame, const std::string& path,
                     MovieFacts& facts) {
     FramePacing pacing;
+    MovieFields fields;
     for (; frame; frame = decoder.next(), ++facts.frames) {
-        if (frame->interlaced_frame) {
-            return tl::unexpected(
-                unreadable(path, "it is interlaced: each frame holds two moments in time",
-                           "Deinterlace it first, for instance: ffmpeg -i IN -vf bwdif OUT."));
-        }
+        fields.add(*frame);
         if (frame->best_effort_timestamp == AV_NOPTS_VALUE)
             pacing.add_unknown();
         else
@@ -209,6 +213,14 @@ Status count_frames(MovieDecoder& decoder, const AVFrame* frame, const std::stri
         if (!is_damaged(*frame)) continue;
         if (facts.damaged++ == 0) facts.first_damaged = facts.frames;
     }
+    if (fields.are_interlaced()) {
+        const char* flags = fields.are_flagged() ? "" : ", though it is not flagged so";
+        return tl::unexpected(unreadable(
+            path, std::string("it is interlaced: its frames hold two moments in time") + flags,
+            "Deinterlace it first, for instance: ffmpeg -i IN -vf bwdif OUT, or bring telecined "
+            "film back with: ffmpeg -i IN -vf fieldmatch,decimate OUT."));
+    }
+    facts.only_flagged_interlaced = fields.are_flagged();
     facts.claimed = decoder.claimed_frames();
     // Frames that could not be decoded leave gaps, which have their own warning.
     const bool complete = facts.claimed <= facts.frames || decoder.claims_by_duration();

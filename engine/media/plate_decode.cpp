@@ -83,6 +83,7 @@ PlateFrame to_plate(const Raster& raster) {
     frame.color = raster.info.color;
     frame.rgb = ImageF3(raster.info.size);
     if (raster.has_alpha) frame.alpha = ImageF1(raster.info.size);
+    frame.alpha_kind = raster.alpha_kind;
     std::visit([&](const auto& samples) { split(samples, raster, frame); }, raster.samples);
     if (!is_display_encoded(raster.info.kind)) frame.nonfinite = count_nonfinite(frame);
     return frame;

@@ -79,6 +79,13 @@ SampleKind kind_of(const ImageSpec& spec, const Pick& pick) {
     return kind.value_or(SampleKind::kOther);
 }
 
+// Where a format or a file says nothing of it, OpenImageIO takes the colours for associated ones,
+// as OpenEXR defines them.
+AlphaKind alpha_kind_of(const ImageSpec& spec) {
+    return spec.get_int_attribute("oiio:UnassociatedAlpha") != 0 ? AlphaKind::kStraight
+                                                                 : AlphaKind::kAssociated;
+}
+
 bool is_exr(const ImageInput& input) {
     return std::string_view(input.format_name()) == "openexr";
 }
@@ -278,6 +285,7 @@ Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request
     raster.info = info;
     raster.channels = static_cast<int>(pick.channels.size());
     raster.has_alpha = pick.has_alpha;
+    raster.alpha_kind = alpha_kind_of(spec);
     switch (info.kind) {
         case SampleKind::kU8:
             WEFT_CHECK_OK(fill<std::uint8_t>(raster, *input, path, pick, OIIO::TypeUInt8));
@@ -300,10 +308,34 @@ Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request
     return raster;
 }
 
+// The views of a part with several, or of several parts with one each.
+std::vector<std::string> views_of(ImageInput& input) {
+    std::vector<std::string> views;
+    if (!is_exr(input)) return views;
+    for (int part = 0; input.seek_subimage(part, 0); ++part) {
+        const ImageSpec& spec = input.spec();
+        std::vector<std::string> here{std::string(spec.get_string_attribute("view"))};
+        if (const OIIO::ParamValue* all = spec.find_attribute("multiView")) {
+            here.clear();
+            const auto count = static_cast<int>(all->type().numelements());
+            for (int k = 0; k < count; ++k)
+                here.push_back(all->get_string_indexed(k));
+        }
+        for (std::string& view : here) {
+            if (!view.empty() && std::find(views.begin(), views.end(), view) == views.end())
+                views.push_back(std::move(view));
+        }
+    }
+    static_cast<void>(input.geterror());
+    return views;
+}
+
 Expected<RasterInfo> probe_oiio(const std::string& path, const RasterRequest& request) {
     WEFT_TRY(input, open_input(path));
     WEFT_TRY(pick, find_pick(*input, path, request));
-    return info_of(*input, path, pick);
+    WEFT_TRY(info, info_of(*input, path, pick));
+    info.views = views_of(*input);
+    return info;
 }
 
 // A PNG has neither layers nor named channels, so OpenImageIO handles such a request and the

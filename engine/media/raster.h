@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/core/alpha.h"
 #include "engine/core/error.h"
 #include "engine/core/geometry.h"
 #include "engine/media/file_color.h"
@@ -24,6 +25,8 @@ struct RasterInfo {
     double pixel_aspect = 1;            ///< Width of a pixel over its height.
     FileColor color = {};
     int orientation = 1;  ///< As stored in the file (orientation.h); already applied.
+    /// Of a stereo EXR, the one that R, G and B belong to first; probe_raster() only.
+    std::vector<std::string> views = {};
 };
 
 /// The aspect, or 1 for a value that no lens has.
@@ -37,6 +40,7 @@ struct Raster {
     RasterInfo info;
     int channels = 0;  ///< Colour channels (1 or 3), then alpha when there is one.
     bool has_alpha = false;
+    AlphaKind alpha_kind = AlphaKind::kStraight;  ///< As the file declares it, or its format does.
     bool palette_indices = false;  ///< The samples of a palette file are indices, not colours.
     std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::uint32_t>,
                  std::vector<float>>

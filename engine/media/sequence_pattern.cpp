@@ -52,6 +52,24 @@ std::vector<Placeholder> placeholders_in(std::string_view s) {
     return found;
 }
 
+bool is_one_character(const Placeholder& p) {
+    return p.length == 1 && !p.printf;
+}
+
+// A single # or @ stands for a number unless there is a file of that very name: logo@2x.png.
+bool is_part_of_name(const std::vector<Placeholder>& found, const std::string& path) {
+    std::error_code ignored;
+    return found.size() == 1 && is_one_character(found[0]) &&
+           std::filesystem::is_regular_file(path, ignored);
+}
+
+// Beside a longer placeholder it is part of the name, too: take#2.####.exr.
+void leave_out_single(std::vector<Placeholder>& found) {
+    const auto longer = std::count_if(found.begin(), found.end(),
+                                      [](const Placeholder& p) { return !is_one_character(p); });
+    if (longer == 1) std::erase_if(found, is_one_character);
+}
+
 // With `sign_counts` the minus is one of the places, as printf counts them.
 std::string padded(std::int64_t frame, int padding, bool sign_counts) {
     std::string digits = std::to_string(frame < 0 ? -frame : frame);
@@ -78,7 +96,9 @@ Expected<SequencePattern> SequencePattern::parse(std::string_view text) {
                                            "' has a frame number in its folder part. Only the file "
                                            "name can have one, such as plate.####.exr.");
     }
-    const auto found = placeholders_in(text.substr(name_at));
+    std::vector<Placeholder> found = placeholders_in(text.substr(name_at));
+    if (is_part_of_name(found, whole)) found.clear();
+    leave_out_single(found);
     if (found.size() > 1) {
         return fail(ErrorCode::kUsage, "'" + whole +
                                            "' has more than one frame number. Leave one of them, "

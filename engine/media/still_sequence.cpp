@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/input_file.h"
+#include "engine/core/setting.h"
 #include "engine/core/text.h"
 #include "engine/media/plate_decode.h"
 #include "engine/media/plates.h"
@@ -29,7 +30,7 @@ class StillSequence final : public FrameReader {
         : pattern_(std::move(pattern)),
           frames_(std::move(frames)),
           options_(std::move(options)),
-          first_(first) {}
+          first_(std::move(first)) {}
 
     const std::vector<int>& frames() const override { return frames_; }
     Size size() const override { return first_.size; }
@@ -39,6 +40,17 @@ class StillSequence final : public FrameReader {
     bool display_encoded() const override { return is_display_encoded(first_.kind); }
     FileColor color() const override { return first_.color; }
     std::string path_of(int frame) const override { return pattern_.path_for(frame); }
+
+    std::vector<std::string> warnings() const override {
+        const std::vector<std::string>& views = first_.views;
+        if (views.size() < 2 || !options_.layer.empty()) return {};
+        std::string others;
+        for (std::size_t k = 1; k < views.size(); ++k)
+            others += (k > 1 ? ", " : "") + views[k];
+        return {"The plate " + pattern_.text() + " is stereo; its first view, " + views[0] +
+                ", is used. Give a layer for another one (" + others + ")" +
+                by({{setting::kPlateLayer, views[1]}}) + "."};
+    }
 
     Expected<PlateFrame> read(int frame) const override {
         const std::string path = path_of(frame);

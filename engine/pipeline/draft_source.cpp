@@ -33,6 +33,13 @@ Expected<std::shared_ptr<const ImageF3>> DraftSource::plate(int frame) const {
     return std::make_shared<const ImageF3>(block_means(*full, factor_));
 }
 
+Expected<PlateAlpha> DraftSource::alpha(int frame) const {
+    WEFT_TRY(full, source_.alpha(frame));
+    if (full.coverage)
+        full.coverage = std::make_shared<const ImageF1>(block_means(*full.coverage, factor_));
+    return full;
+}
+
 Expected<Matte> DraftSource::reduced(Expected<Matte> full) const {
     if (!full) return full;
     return block_means(*full, factor_);

@@ -18,6 +18,7 @@ class DraftSource final : public ShotSource {
 
     [[nodiscard]] Size size() const override;
     [[nodiscard]] Expected<std::shared_ptr<const ImageF3>> plate(int frame) const override;
+    [[nodiscard]] Expected<PlateAlpha> alpha(int frame) const override;
     [[nodiscard]] Expected<Matte> matte(int region, int frame) const override;
     [[nodiscard]] Expected<Matte> matte_key(int region, int frame) const override;
     [[nodiscard]] Expected<Matte> holdout_key(int region, int painted, int frame) const override;

@@ -11,6 +11,7 @@
 #include "engine/lighting/plate_detail.h"
 #include "engine/lighting/shading_lookup.h"
 #include "engine/pipeline/focus_frames.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_zones.h"
@@ -204,7 +205,7 @@ Status read_focus(const PassContext& context, AnalysisStore& store) {
 Expected<FocusReading> focus_reading(const ShotSource& source, const ShotPlan& plan,
                                      const AnalysisStore& store, int region, int frame) {
     WEFT_TRY(plate, source.plate(frame));
-    const ImageF3 working = transformed(*plate, *plan.working_from_plate);
+    WEFT_TRY(working, working_plate(source, plan, frame, *plate));
     WEFT_TRY(visible, visible_matte(source, plan, store, region, frame, working));
     const Recti box = matte_bounds(visible);
     FocusReading out;

@@ -23,12 +23,20 @@ void raise_light(Shading& shading, float reference, float strength) {
     }
 }
 
+// Light within this factor of the frame's own is never limited.
+constexpr float kAroundLevel = 2.0f;
+// Of the reference frame's light: a surface with less is not in shade but about to vanish.
+constexpr float kVanishing = 0.1f;
+constexpr int kSampledColumns = 320;
+constexpr float kDarkest = 1e-6f;  // a shading is above 0
+
 }  // namespace
 
 Expected<FrameLight> FrameLight::find(const FrameLightInputs& inputs) {
     FrameLight out(inputs);
     const RegionPlan& region = out.region();
-    out.strength_ = region.strength_at(inputs.frame);
+    out.options_ = region.light;
+    out.options_.strength = region.strength_at(inputs.frame);
     if (!region.lights() || is_transfer(region.light.form)) return out;
     out.shading_ = inputs.scene.picture_light;
     if (!out.shading_) {
@@ -63,11 +71,53 @@ Status FrameLight::change() {
                                      in_.frame));
         scale_light(*shading_, in_.scene.reference_shading, factor);
     }
-    if (strength_ > 1) {
-        raise_light(*shading_, in_.scene.reference_shading, strength_);
-        strength_ = 1;
+    if (options_.strength > 1) {
+        raise_light(*shading_, in_.scene.reference_shading, options_.strength);
+        options_.strength = 1;
+    }
+    if (plan.light_source == LightSource::kPlate && options_.form == LightForm::kGain) {
+        if (in_.plan.display_referred && plan.estimates_light()) WEFT_CHECK_OK(find_white());
+        follow_fade();
     }
     return {};
+}
+
+// White that the picture is mixed with is no light on the surface, and lies over the new one, too.
+Status FrameLight::find_white() {
+    WEFT_TRY(plate, in_.source.plate(in_.frame));
+    const int step = std::max(1, plate->width() / kSampledColumns);
+    ImageF3 few(plate->width() / step, plate->height() / step);
+    for (int y = 0; y < few.height(); ++y)
+        for (int x = 0; x < few.width(); ++x)
+            std::copy_n(plate->pixel(x * step, y * step), 3, few.pixel(x, y));
+    in_.plan.working_from_plate->apply(few);
+    const LightRange surface =
+        light_range(in_.working.view().crop(in_.box), in_.matte.view().crop(in_.box));
+    white_ = white_share(in_.scene.reference_range, {light_range(few, {}), surface});
+    if (!(white_ > 0)) return {};
+    const float own = surface.middle > white_ ? 1 - white_ / surface.middle : 0.0f;
+    for (std::size_t i = 0; i < shading_->value.size_bytes() / sizeof(float); ++i)
+        shading_->value.data()[i] = std::max(kDarkest, own * shading_->value.data()[i]);
+    return {};
+}
+
+// Fades, dissolves and flashes change the light of the whole surface far beyond the limits of the
+// gain, which are there for errors of its parts. In a picture that is almost black, the share of
+// the texture that takes no light goes with it.
+void FrameLight::follow_fade() {
+    const float reference = in_.scene.reference_shading;
+    const float level = median_shading(*shading_, in_.matte) / reference;
+    if (!(reference > 0) || !std::isfinite(level)) return;
+    options_.least_gain = std::min(options_.least_gain, level / kAroundLevel);
+    options_.most_gain = std::max(options_.most_gain, level * kAroundLevel);
+    const float left = level / kVanishing;
+    if (left >= 1 || options_.strength >= 1) return;
+    const float unlit = (1 - options_.strength) * left * reference;
+    for (std::size_t i = 0; i < shading_->value.size_bytes() / sizeof(float); ++i) {
+        float& s = shading_->value.data()[i];
+        s = options_.strength * s + unlit;
+    }
+    options_.strength = 1;
 }
 
 void FrameLight::tint(ViewU8x1 inside, ImageF3& texture) const {
@@ -88,11 +138,9 @@ Status FrameLight::put_light(ViewU8x1 inside, ImageF3& texture) const {
     if (!plan.lights()) return {};
     const Vec2i origin(in_.box.x0, in_.box.y0);
     const ViewF3 old_surface = in_.working.view().crop(in_.box);
-    LightOptions options = plan.light;
-    options.strength = strength_;
-    if (is_transfer(options.form)) {
-        const float share = std::min(1.0f, strength_);
-        if (options.form == LightForm::kStatistics)
+    if (is_transfer(options_.form)) {
+        const float share = std::min(1.0f, options_.strength);
+        if (options_.form == LightForm::kStatistics)
             transfer_statistics(texture, old_surface, inside, share);
         else
             match_histogram(texture, old_surface, inside, share);
@@ -103,11 +151,11 @@ Status FrameLight::put_light(ViewU8x1 inside, ImageF3& texture) const {
         const ViewF3 part = pass.view().crop(in_.box);
         const bool albedo = plan.light_pass == RegionPlan::Pass::kAlbedo;
         apply_exact_light(texture, old_surface, albedo ? part : ViewF3(), albedo ? ViewF3() : part,
-                          inside, options.strength);
+                          inside, options_.strength);
         return {};
     }
     if (!shading_) return {};
-    apply_light(texture, origin, inside, *shading_, in_.scene.reference_shading, options);
+    apply_light(texture, origin, inside, *shading_, in_.scene.reference_shading, options_);
     if (in_.scene.picture_light) return {};
     tint(inside, texture);
     return {};
@@ -143,6 +191,11 @@ Expected<ImageF3> FrameLight::put_gloss(ViewU8x1 inside, ImageF3& texture) const
 
 Expected<ImageF3> FrameLight::apply(ViewU8x1 inside, ImageF3& texture) const {
     WEFT_CHECK_OK(put_light(inside, texture));
+    if (white_ > 0) {
+        std::for_each(texture.data(), texture.data() + texture.size_bytes() / sizeof(float),
+                      [this](float& v) { v += white_; });
+        return ImageF3();
+    }
     const Matte seen = on_surface(inside);
     WEFT_TRY(gloss, put_gloss(seen, texture));
     const auto keep_detail = [&](ImageF3& picture) {

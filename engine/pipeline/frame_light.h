@@ -35,8 +35,12 @@ class FrameLight {
     /// Where the plate shows the old surface within `inside`, of the box's size: what is beyond it
     /// takes nothing of the plate over.
     [[nodiscard]] Matte on_surface(ViewU8x1 inside) const;
-    /// λ that is left to be applied, 0–1.
-    [[nodiscard]] float strength() const { return strength_; }
+    /// With λ that is left to be applied, 0–1, and the limits of this frame.
+    [[nodiscard]] const LightOptions& options() const { return options_; }
+    /// The share of white that lies over the frame (white_share()).
+    [[nodiscard]] float white() const { return white_; }
+    /// True if nothing else is left of the surface.
+    [[nodiscard]] bool all_white() const { return white_ > 0.97f; }
     /// Lights the texture over the box; `inside` is the matte there. Returns the gloss that is on
     /// it then; empty: none. Errors: those of the source.
     [[nodiscard]] Expected<ImageF3> apply(ViewU8x1 inside, ImageF3& texture) const;
@@ -47,6 +51,8 @@ class FrameLight {
         return in_.plan.regions[static_cast<std::size_t>(in_.index)];
     }
     [[nodiscard]] Status change();
+    void follow_fade();
+    [[nodiscard]] Status find_white();
     void tint(ViewU8x1 inside, ImageF3& texture) const;
     [[nodiscard]] Status put_light(ViewU8x1 inside, ImageF3& texture) const;
     [[nodiscard]] Expected<MovingGloss> moving_gloss_here(ViewU8x1 inside) const;
@@ -54,7 +60,8 @@ class FrameLight {
 
     FrameLightInputs in_;
     std::optional<Shading> shading_;
-    float strength_ = 0;
+    LightOptions options_;
+    float white_ = 0;
 };
 
 }  // namespace weft

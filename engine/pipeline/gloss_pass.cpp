@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "engine/lighting/daylight.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/region_mattes.h"
 
 namespace weft {
@@ -26,8 +27,10 @@ Expected<StillSurface> gathered(const PassContext& context, const AnalysisStore&
                                 int region) {
     const ShotPlan& plan = context.plan;
     const RegionPlan& of = plan.regions[static_cast<std::size_t>(region)];
-    WEFT_TRY(primary, context.source.plate(of.reference_frames.front()));
-    const Daylight daylight = find_daylight(transformed(*primary, *plan.working_from_plate));
+    const int reference = of.reference_frames.front();
+    WEFT_TRY(primary, context.source.plate(reference));
+    WEFT_TRY(lit, working_plate(context.source, plan, reference, *primary));
+    const Daylight daylight = find_daylight(lit);
     StillSurfaceGatherer gatherer(pixel_px(plan, context.source.size()));
     for (const int frame : of.gloss_evidence) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
@@ -36,8 +39,8 @@ Expected<StillSurface> gathered(const PassContext& context, const AnalysisStore&
         WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kCoords}));
         WEFT_TRY(ref_from_cur, decode_lattice(bytes));
         WEFT_TRY(plate, context.source.plate(frame));
-        gatherer.add(transformed(*plate, *plan.working_from_plate),
-                     without_holdout(extent, holdout), ref_from_cur);
+        WEFT_TRY(working, working_plate(context.source, plan, frame, *plate));
+        gatherer.add(working, without_holdout(extent, holdout), ref_from_cur);
     }
     return gatherer.finish(daylight.confidence);
 }

@@ -1,6 +1,7 @@
 #include "engine/pipeline/matte_pass.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "engine/mask/plate_edge.h"
 #include "engine/motion/follow_size.h"
 #include "engine/pipeline/matte_stretch.h"
+#include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_zones.h"
 
 namespace weft {
@@ -121,6 +123,18 @@ Expected<Matte> key_of(const ShotSource& source, const Job& job, int frame) {
                           : source.holdout_key(job.region, job.layer - 1, frame);
 }
 
+// Whether the motion is lost everywhere, too: the picture of a fast pan is found again in places.
+bool is_cut(const SweepFrame& at) {
+    constexpr double kFound = 0.35;
+    if (!at.cut || !at.prev_from_cur) return false;
+    const Matte& valid = at.prev_from_cur->get().valid;
+    std::int64_t found = 0;
+    for (int y = 0; y < valid.height(); ++y)
+        found += std::count_if(valid.row(y), valid.row(y) + valid.width(),
+                               [](std::uint8_t v) { return v != 0; });
+    return static_cast<double>(found) < kFound * valid.width() * valid.height();
+}
+
 // What passes in front of a job's matte; empty: nothing does.
 Expected<Matte> in_front_of(const PassContext& context, const AnalysisStore& store, const Job& job,
                             int frame) {
@@ -134,6 +148,7 @@ struct MatteStop {
     const ImageU8x3& plate;   // of the plate's size
     const ImageU8x3& walked;  // the same, or smaller
     const FrameMotion* prev_from_cur = nullptr;
+    bool cut = false;  // a new scene begins with it
 
     // `matte` of the plate's size as it is walked, which is kept in `smaller` if it is reduced.
     [[nodiscard]] const Matte& reduce(const Matte& matte, Matte& smaller) const {
@@ -149,6 +164,16 @@ void begin(Job& job, const MatteStop& at, const Matte& painted, const Matte& fro
     job.options.soft_edges |= job.walker->has_soft_edges();
 }
 
+// Beyond a cut there is nothing to go on from: the surface may be anywhere in the new scene, and
+// most often it is not in it.
+MatteEstimate not_there(Size size) {
+    return {Matte(size), 0.0f};
+}
+
+bool is_not_there(const MatteEstimate& estimate) {
+    return estimate.confidence == 0 && matte_bounds(estimate.matte).empty();
+}
+
 // Advances a job's walker to this frame, which is one of `within`, on the way that begins at
 // `start`. The estimate is of matte_size(), as `front` is; on a keyframe it is the painted matte
 // itself.
@@ -159,10 +184,13 @@ Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan wit
         if (length(within) > 1) begin(job, at, key, front);
         return MatteEstimate{std::move(key), 1.0f};
     }
-    if (!job.is_confirmed(at.frame))
-        return job.walker->advance(at.walked, at.prev_from_cur->get(), front);
+    if (at.cut) job.walker.reset();
+    if (!job.is_confirmed(at.frame)) {
+        return job.walker ? job.walker->advance(at.walked, at.prev_from_cur->get(), front)
+                          : not_there(at.walked.size());
+    }
     WEFT_TRY(part, context.source.confirmed_part(job.region, job.layer, at.frame));
-    if (at.frame == start)
+    if (at.frame == start || !job.walker)
         begin(job, at, part.matte, front);
     else
         (void)job.walker->advance(at.walked, at.prev_from_cur->get(), front);
@@ -233,9 +261,12 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         if (job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
         if (job.merged(at.frame)) {
             WEFT_TRY(forward, found_forward(store, job, at.frame));
-            estimate =
-                merge_estimates(forward, estimate, {at.frame, job.key_before(), job.key_after()},
-                                at.walked, job.options, walked_front);
+            if (is_not_there(estimate))
+                estimate = std::move(forward);
+            else if (!is_not_there(forward))
+                estimate = merge_estimates(forward, estimate,
+                                           {at.frame, job.key_before(), job.key_after()}, at.walked,
+                                           job.options, walked_front);
         }
         WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
         WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte, std::move(found)));
@@ -268,7 +299,7 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
             const bool as_followed = at.views->followed().size() == size;
             return visit(context, store, jobs,
                          {at.frame, plate, smaller.empty() ? plate : smaller,
-                          as_followed ? at.prev_from_cur.get() : &larger});
+                          as_followed ? at.prev_from_cur.get() : &larger, is_cut(at)});
         });
     };
     const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);

@@ -5,6 +5,7 @@ namespace weft {
 void leave_look_out(RegionPlan& region) {
     region.zones.clear();
     region.light_source = LightSource::kNone;
+    region.light_frame.reset();
     region.light_evidence.clear();
     region.gloss_evidence.clear();
     region.grain = 0;

@@ -89,6 +89,15 @@ void drop_nonfinite(Matte& mask, const Matte& finite) {
                    [](std::uint8_t m, std::uint8_t f) { return f ? m : std::uint8_t{0}; });
 }
 
+Matte cropped(const Matte& matte, const Recti& box) {
+    Matte out(box.size());
+    for (int y = 0; y < box.height(); ++y) {
+        const std::uint8_t* row = matte.pixel(box.x0, box.y0 + y);
+        std::copy(row, row + box.width(), out.row(y));
+    }
+    return out;
+}
+
 Recti matte_bounds(ViewU8x1 matte) {
     return matte_box(matte, 1);
 }

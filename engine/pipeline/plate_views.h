@@ -34,6 +34,8 @@ struct PlateViews {
 /// Sets `mask` to 0 where `finite` is 0; an empty `finite` changes nothing.
 void drop_nonfinite(Matte& mask, const Matte& finite);
 
+/// The part inside the box, which must lie inside the matte.
+[[nodiscard]] Matte cropped(const Matte& matte, const Recti& box);
 /// The smallest rectangle around the pixels above 0.
 [[nodiscard]] Recti matte_bounds(ViewU8x1 matte);
 

@@ -9,6 +9,7 @@
 #include "engine/pipeline/form_pass.h"
 #include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/paper_walker.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/surface_job.h"
@@ -85,7 +86,7 @@ class FrameFiller {
         if (cancel_.cancelled()) return cancelled(cancel_);
         const RegionPlan& region = region_at(index);
         const int reference = region.reference_frames.front();
-        for (const int at : {frame_, reference}) {
+        for (const int at : {frame_, reference, region.light_reference()}) {
             WEFT_TRY(there, fill_mattes(index, at));
             if (!there) return false;
         }
@@ -93,7 +94,7 @@ class FrameFiller {
         WEFT_TRY(placed, fill_texture(index, reference));
         if (!placed) return false;
         WEFT_CHECK_OK(fill_light(index, frame_));
-        WEFT_CHECK_OK(fill_light(index, reference));
+        WEFT_CHECK_OK(fill_light(index, region.light_reference()));
         WEFT_CHECK_OK(fill_form(index, reference));
         fill_camera(index, reference);
         WEFT_CHECK_OK(fill_focus(index));
@@ -246,7 +247,7 @@ class FrameFiller {
         WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index, frame));
         Matte visible = without_holdout(extent, holdout);
         drop_nonfinite(visible, make_views(*plate, *plan_.display_from_plate).finite);
-        const ImageF3 working = transformed(*plate, *plan_.working_from_plate);
+        WEFT_TRY(working, working_plate(source_, plan_, frame, *plate));
         store_.put_beneath(key, encode(estimate_shading(working, visible,
                                                         shading_options(plan_, source_.size()))));
         return {};

@@ -132,6 +132,8 @@ FrameSpan analysed_span(const ShotPlan& plan, const RegionPlan& region) {
         add_all(zone.painted.keys);
         add_all(zone.painted.confirmed);
     }
+    if (region.light_frame && (region.estimates_light() || region.match > 0))
+        add(*region.light_frame);
     std::for_each(region.light_evidence.begin(), region.light_evidence.end(), add);
     std::for_each(region.gloss_evidence.begin(), region.gloss_evidence.end(), add);
     std::for_each(region.grain_frames.begin(), region.grain_frames.end(), add);

@@ -198,6 +198,12 @@ struct RegionPlan {
         return light_source == LightSource::kPlate && lights() && light_pass == Pass::kNone &&
                !is_transfer(light.form);
     }
+    /// The frame that the light and the exposure are relative to, if that is not the reference
+    /// frame, because that shows nothing.
+    std::optional<int> light_frame;
+    [[nodiscard]] int light_reference() const {
+        return light_frame.value_or(reference_frames.front());
+    }
     /// Frames that show what is old texture and what is light, ascending; empty: each frame is
     /// estimated alone. They do not depend on the part of the shot that is rendered.
     std::vector<int> light_evidence;

@@ -11,6 +11,7 @@
 #include "engine/pipeline/frame_layers.h"
 #include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/history_seams.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_light.h"
@@ -50,12 +51,13 @@ Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
         (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
     if (!from_plate) return {};
     WEFT_TRY(plate, source.plate(frame));
-    const ImageF3 working = transformed(*plate, *plan.working_from_plate);
+    WEFT_TRY(working, working_plate(source, plan, frame, *plate));
     WEFT_TRY(shading, region_shading(source, region, store, index, frame, working));
     WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
     WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
     const Matte visible = without_holdout(extent, holdout);
     scene.reference_shading = median_shading(*shading, visible);
+    scene.reference_range = {light_range(working, {}), light_range(working, visible)};
     if (region.tints()) {
         scene.reference_colour = region.cast ? light_colour(working, visible, *shading)
                                              : daylight_colour(find_daylight(working));
@@ -75,7 +77,7 @@ Status take_exposure(const ShotSource& source, const ShotPlan& plan, const Analy
     // A light that is used unchanged has the plate's exposure in it.
     if (!(region.match > 0) || region.exact_light) return {};
     WEFT_TRY(plate, source.plate(frame));
-    const ImageF3 working = transformed(*plate, *plan.working_from_plate);
+    WEFT_TRY(working, working_plate(source, plan, frame, *plate));
     WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
     WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
     scene.exposure = plate_exposure(working, without_holdout(extent, holdout), plan.exposure_greys);
@@ -204,8 +206,9 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
         WEFT_TRY(degrees, decode_number(bytes));
         scene.shutter_deg = degrees;
     }
-    WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, reference, scene));
-    WEFT_CHECK_OK(take_exposure(source, plan, store, region_index, reference, scene));
+    const int lit = region.light_reference();
+    WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, lit, scene));
+    WEFT_CHECK_OK(take_exposure(source, plan, store, region_index, lit, scene));
     if (is_focus_followed(region)) {
         WEFT_TRY(extent, extent_matte(source, plan, store, region_index, reference));
         take_texture_focus(plan, region, extent, scene);

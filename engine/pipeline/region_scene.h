@@ -13,6 +13,7 @@
 #include "engine/form/form_map.h"
 #include "engine/lighting/highlights.h"
 #include "engine/lighting/plate_transfer.h"
+#include "engine/lighting/white_veil.h"
 #include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
@@ -27,7 +28,8 @@ struct RegionScene {
     /// The form as it was found; null: flat. The scene's frame is `smaller` times smaller.
     std::shared_ptr<const FormMap> form;
     float smaller = 1;
-    float reference_shading = 1;  ///< S₀
+    float reference_shading = 1;        ///< S₀
+    SurfaceLightRange reference_range;  ///< Of the frame that S₀ is from; light of the plate only.
     std::optional<Shading> picture_light;
     float exposure = 1;            ///< plate_exposure() of the reference frame.
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.

@@ -14,6 +14,7 @@
 #include "engine/pipeline/frame_focus.h"
 #include "engine/pipeline/frame_light.h"
 #include "engine/pipeline/motion_zones.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_mattes.h"
@@ -26,15 +27,6 @@ namespace {
 constexpr float kKnee = 0.9f;  // of the roll-off
 
 enum class Place { kDevice, kCpu };
-
-Matte cropped(const Matte& matte, const Recti& box) {
-    Matte out(box.size());
-    for (int y = 0; y < box.height(); ++y) {
-        const std::uint8_t* row = matte.pixel(box.x0, box.y0 + y);
-        std::copy(row, row + box.width(), out.row(y));
-    }
-    return out;
-}
 
 // A region's mattes, without its holdouts.
 struct Mattes {
@@ -53,13 +45,14 @@ class FrameRenderer {
   public:
     FrameRenderer(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
                   const Backend& backend, int frame, std::shared_ptr<const ImageF3> plate,
-                  Place place)
+                  PlateAlpha alpha, Place place)
         : source_(source),
           plan_(plan),
           store_(store),
           backend_(backend),
           frame_(frame),
           plate_(std::move(plate)),
+          alpha_(std::move(alpha)),
           working_(plate_->size()),
           canvas_(plate_->size()),
           ready_(static_cast<std::size_t>(plate_->height())),
@@ -110,7 +103,8 @@ class FrameRenderer {
     const Backend& backend_;
     int frame_;
     std::shared_ptr<const ImageF3> plate_;
-    ImageF3 working_;  // the plate in the working space; only the spans of ready_
+    PlateAlpha alpha_;
+    ImageF3 working_;  // the plate's straight colours in the working space; only spans of ready_
     ImageF3 canvas_;   // layers go over it; the same
     struct Span {
         int x0 = 0, x1 = 0;
@@ -124,6 +118,7 @@ class FrameRenderer {
     std::unique_ptr<FrameCanvas> device_;
     Recti device_box_;  // where the canvas on the device differs from canvas_
     bool device_failed_ = false;
+    bool burnt_out_ = false;
 };
 
 const RegionPlan& region_of(const ShotPlan& plan, int index) {
@@ -150,6 +145,7 @@ void FrameRenderer::make_ready(const Recti& box) {
         if (x0 >= x1) return;
         float* to = working_.pixel(x0, y);
         std::copy(plate_->pixel(x0, y), plate_->pixel(x1, y), to);
+        if (alpha_.associated()) unassociate_row(to, alpha_.coverage->pixel(x0, y), x1 - x0);
         plan_.working_from_plate->apply(working_.view().crop({x0, y, x1, y + 1}));
         std::copy(to, to + static_cast<std::ptrdiff_t>(3) * (x1 - x0), canvas_.pixel(x0, y));
     };
@@ -179,10 +175,12 @@ Expected<Mattes> FrameRenderer::composite_mattes(int index) {
             });
     }
     Matte covers = without_holdout(extent, holdout);
+    take_share_of_element(covers, alpha_);
     if (shows_as_followed(region, frame_)) return Mattes{std::move(covers), {}};
     WEFT_TRY(edged, edged_holdout(source_, plan_, store_, index, frame_));
     Matte shown =
         without_holdout(with_edge(std::move(extent), region.matte_edge.at(frame_)), edged);
+    take_share_of_element(shown, alpha_);
     return Mattes{std::move(shown), std::move(covers)};
 }
 
@@ -281,12 +279,9 @@ Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, con
     layer.old_surface = old_surface;
     layer.multiply = grade_on(region_of(plan_, index), scene).multiply;
     if (const auto& shading = light.shading()) {
-        layer.gain = GainRequest{shading->value,
-                                 shading->downscale,
-                                 scene.reference_shading,
-                                 light.strength(),
-                                 region_of(plan_, index).light.least_gain,
-                                 region_of(plan_, index).light.most_gain};
+        layer.gain = GainRequest{
+            shading->value,           shading->downscale,         scene.reference_shading,
+            light.options().strength, light.options().least_gain, light.options().most_gain};
     }
     device_box_ = device_box_.united(box);
     return of_device(device_->add(layer));
@@ -304,6 +299,13 @@ Status FrameRenderer::add(int index, const RegionScene& scene) {
     lit_ = lit_ || region_of(plan_, index).lights() || region_of(plan_, index).grades();
     WEFT_TRY(light, FrameLight::find({source_, plan_, store_, index, frame_, working_, scene,
                                       mattes.old(), box}));
+    if (light.all_white()) {
+        burnt_out_ = true;
+        return {};
+    }
+    device_failed_ = device_ && light.white() > 0;  // which no device adds
+    if (device_failed_)
+        return fail(ErrorCode::kNoBackend, "White over a frame is added on the CPU.");
     RegionSurface surface(plan_, index, scene, store_, backend_, frame_, plate_->size());
     TextureCoords exact;
     if (region_of(plan_, index).has_uv) {
@@ -329,6 +331,8 @@ Expected<RenderedFrame> FrameRenderer::finish() {
     RenderedFrame out;
     if (layers_) {
         finish_layers(*layers_, working_, canvas_);
+        put_alpha_back(layers_->patch, touched_, alpha_);
+        put_alpha_back(layers_->edge, touched_, alpha_);
         out.layers = std::move(layers_);
     }
     const bool rolls_off = lit_ && plan_.display_referred;
@@ -340,8 +344,9 @@ Expected<RenderedFrame> FrameRenderer::finish() {
         out.above_one =
             roll_off(canvas_.view().crop(rendered_), touched_.view().crop(rendered_), kKnee);
     }
-    out.pixels = transformed(*plate_, *plan_.out_from_plate);
+    out.pixels = plate_in(*plate_, alpha_, *plan_.out_from_plate);
     if (!rendered_.empty()) plan_.out_from_working->apply(canvas_.view().crop(rendered_));
+    put_alpha_back(canvas_, touched_, alpha_);
     for (int y = rendered_.y0; y < rendered_.y1; ++y) {
         for (int x = rendered_.x0; x < rendered_.x1; ++x) {
             if (touched_.at(x, y) == 0) continue;
@@ -351,6 +356,7 @@ Expected<RenderedFrame> FrameRenderer::finish() {
         }
     }
     out.touched = std::move(touched_);
+    out.burnt_out = burnt_out_;
     return out;
 }
 
@@ -361,9 +367,10 @@ Expected<RenderedFrame> render_frame(const ShotSource& source, const ShotPlan& p
                                      const AnalysisStore& analysis, const Backend& backend,
                                      int frame) {
     WEFT_TRY(plate, source.plate(frame));
+    WEFT_TRY(alpha, source.alpha(frame));
     const ZonedAnalysis store(source, plan, analysis);
     const auto on = [&](Place place, bool& again) -> Expected<RenderedFrame> {
-        FrameRenderer renderer(source, plan, store, backend, frame, plate, place);
+        FrameRenderer renderer(source, plan, store, backend, frame, plate, alpha, place);
         const auto draw = [&]() -> Expected<RenderedFrame> {
             for (std::size_t k = 0; k < scenes.size(); ++k) {
                 WEFT_CHECK_OK(renderer.add(static_cast<int>(k), scenes[k]));

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/alpha.h"
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
@@ -28,6 +29,8 @@ class ShotSource {
     [[nodiscard]] virtual Size size() const = 0;
     /// The decoded plate, H×W×3, in the plate's own space; NaN and infinity as they stand.
     [[nodiscard]] virtual Expected<std::shared_ptr<const ImageF3>> plate(int frame) const = 0;
+    /// The alpha of the plate's frame, of its size. A source of opaque plates need not override it.
+    [[nodiscard]] virtual Expected<PlateAlpha> alpha(int /*frame*/) const { return PlateAlpha(); }
     /// The full matte of a region, if mattes are given frame by frame.
     [[nodiscard]] virtual Expected<Matte> matte(int region, int frame) const = 0;
     /// A painted matte keyframe (RegionPlan::matte_keys names the frames).

@@ -8,6 +8,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/pipeline/light_pass.h"
+#include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/surface_stop.h"
 #include "engine/pipeline/walk_along.h"
@@ -247,7 +248,7 @@ class Follower {
     Status measure_light(SurfaceJob& job, const SweepFrame& at, const Matte& visible,
                          const LatticeField& prev_from_cur) {
         if (!job.shading) return {};
-        const ImageF3 working = transformed(*at.plate, *context_.plan.working_from_plate);
+        WEFT_TRY(working, working_plate(context_.source, context_.plan, at.frame, *at.plate));
         const Size size = working.size();
         const ShadingOptions options = shading_options(context_.plan, size);
         const SurfaceSample sample =
@@ -270,14 +271,15 @@ class Follower {
         ImageF3 display = transformed(*at.plate, *context_.plan.display_from_plate);
         Matte metered(display.size(), 255);
         drop_nonfinite(metered, at.views->finite);
-        if (at.frame == job.primary) {
-            job.meter.emplace(context_.plan.plate_quantum);
-        } else {
+        if (at.frame == job.primary) job.meter.emplace(context_.plan.plate_quantum);
+        if (at.shows() && !job.last_display.empty()) {
             job.meter->add(display, job.last_display, metered, job.last_metered,
                            prev_from_cur.dense(rect_of(display.size())));
         }
-        job.last_display = std::move(display);
-        job.last_metered = std::move(metered);
+        if (at.shows()) {
+            job.last_display = std::move(display);
+            job.last_metered = std::move(metered);
+        }
         if (at.frame < job.plan->grain_frames.back()) return {};
         const GrainModel grain = job.meter->model();
         job.meter.reset();
@@ -289,7 +291,8 @@ class Follower {
                            const LatticeField& prev_from_cur) {
         const std::vector<int>& frames = job.plan->shutter_evidence;
         if (!job.shutter || at.frame > frames.back()) return {};
-        if (at.frame > job.primary) job.shutter_meter.add(at.views->luma, visible, prev_from_cur);
+        if (at.frame > job.primary && at.shows())
+            job.shutter_meter.add(at.views->luma, visible, prev_from_cur);
         if (at.frame < frames.back()) return {};
         return keep(job, job.primary, AnalysisKind::kShutter, encode(job.shutter_meter.degrees()));
     }

@@ -139,8 +139,11 @@ Expected<SurfaceStop> SurfaceStops::begin_stop(const SurfaceJob& job, Before& be
                                                const SweepFrame& at, const Hash128& views,
                                                Gather& gather) const {
     SurfaceStop out;
-    WEFT_TRY(extent, extent_of(job, at.frame));
-    WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, store_, job.region, at.frame));
+    // Mattes go with the picture by which the surface is followed.
+    const bool estimated = motion_of(*job.plan) == SurfaceTrack::Motion::kEstimated;
+    const int seen = estimated ? at.seen : at.frame;
+    WEFT_TRY(extent, extent_of(job, seen));
+    WEFT_TRY(holdout, holdout_matte(context_.source, context_.plan, store_, job.region, seen));
     out.held = before.held.advance({at.views->display, extent, holdout});
     out.visible = without_holdout(extent, holdout);
     out.extent = std::move(extent);

@@ -10,6 +10,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
 #include "engine/core/work_thread.h"
+#include "engine/pipeline/shown_frames.h"
 #include "engine/pipeline/walk_memory.h"
 
 namespace weft {
@@ -25,7 +26,7 @@ Expected<SweepFrame> load(const PassContext& context, int frame) {
     WEFT_TRY(plate, context.source.plate(frame));
     auto views =
         std::make_shared<const PlateViews>(make_views(*plate, *context.plan.display_from_plate));
-    return SweepFrame{frame, plate, std::move(views), nullptr};
+    return SweepFrame{frame, plate, std::move(views), frame, false, nullptr};
 }
 
 // Several frames on their way to the visitor: one is being read and its motion estimated, others
@@ -60,7 +61,7 @@ class Conveyor {
             WEFT_TRY(frame, reading_[0].get());
             reading_.pop_front();
             read(k + 2);
-            add_motion(frame);
+            WEFT_CHECK_OK(add_motion(frame, k));
             return prepared(std::move(frame));
         }
         auto frame = preparing_.front().get();
@@ -73,12 +74,22 @@ class Conveyor {
   private:
     using Coming = std::future<Expected<SweepFrame>>;
 
-    // Of the frame after the one of the last call.
-    void add_motion(SweepFrame& frame) {
+    // Of the frame after the one of the last call, number k.
+    Status add_motion(SweepFrame& frame, int k) {
+        const auto peek = [&](int ahead) -> Expected<ShownFrames::Seen> {
+            if (k + ahead >= count_ || context_.cancel.cancelled()) return ShownFrames::Seen{};
+            WEFT_TRY(later, load(context_, options_.first + step_ * (k + ahead)));
+            return ShownFrames::Seen{later.frame, std::move(later.views), false};
+        };
+        WEFT_TRY(seen, shown_.next({frame.frame, frame.views, false}, peek));
+        frame.seen = seen.frame;
+        frame.cut = seen.cut;
+        frame.views = std::move(seen.views);
         if (options_.motion && before_.views && !context_.cancel.cancelled()) {
             frame.prev_from_cur = std::make_shared<const FrameMotion>(
                 [&plan = context_.plan, number = frame.frame, views = frame.views,
                  before_number = before_.frame, before_views = before_.views] {
+                    if (views == before_views) return FlowField(views->followed().size());
                     return motion_between(plan, number, *views, before_number, *before_views);
                 });
             const bool expected =
@@ -86,6 +97,7 @@ class Conveyor {
             if (!expected) static_cast<void>(frame.prev_from_cur->get());
         }
         before_ = frame;
+        return {};
     }
 
     Expected<SweepFrame> prepared(Expected<SweepFrame> frame) {
@@ -98,7 +110,7 @@ class Conveyor {
         reading_.push_back(reader_.run([this, k]() -> Expected<SweepFrame> {
             if (context_.cancel.cancelled()) return cancelled(context_.cancel);
             auto frame = load(context_, options_.first + step_ * k);
-            if (frame && ahead_) add_motion(*frame);
+            if (frame && ahead_) WEFT_CHECK_OK(add_motion(*frame, k));
             return frame;
         }));
     }
@@ -118,6 +130,7 @@ class Conveyor {
     const bool ahead_;
     int next_ = 0;
     SweepFrame before_;
+    ShownFrames shown_;
     std::deque<Coming> reading_, preparing_;
     WorkThread reader_, preparer_;  // use the members above until they are destroyed
 };
@@ -150,7 +163,10 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
             }
             WEFT_TRY(here, load(context, frame));
             const PlateViews& before = *last->second.views;
-            if (!plan.stages->motion(frame, frame - 1) || !plan.stages->motion(frame - 1, frame)) {
+            const bool known =
+                plan.stages->motion(frame, frame - 1) && plan.stages->motion(frame - 1, frame);
+            // Across a frame that shows nothing, the sweep knows which to compare.
+            if (!known && are_neighbours(*here.views, before)) {
                 // One estimate in each direction serves sweeps both ways.
                 auto [down, up] =
                     estimate_flows(here.views->followed(), before.followed(), plan.quality);

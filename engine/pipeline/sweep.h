@@ -21,9 +21,14 @@ class WalkMemory;
 struct SweepFrame {
     int frame = 0;
     std::shared_ptr<const ImageF3> plate;
+    /// What surfaces are followed by: the views of the frame `seen`, which is another one where
+    /// this one shows nothing (ShownFrames).
     std::shared_ptr<const PlateViews> views;
-    /// Estimated motion to the frame before (of the sweep) with its consistency, of follow_size();
-    /// null on the first frame and if the sweep uses no motion.
+    int seen = 0;
+    [[nodiscard]] bool shows() const { return seen == frame; }
+    bool cut = false;  ///< It is of another scene than what was seen on the frame before.
+    /// Estimated motion to what was seen on the frame before (of the sweep) with its consistency,
+    /// of follow_size(); null on the first frame and if the sweep uses no motion.
     std::shared_ptr<const FrameMotion> prev_from_cur;
 };
 

@@ -11,6 +11,7 @@
 #include "engine/motion/stripes.h"
 #include "engine/motion/surface_fit.h"
 #include "engine/motion/surface_flow.h"
+#include "engine/temporal/tiny_surface.h"
 
 namespace weft {
 namespace {
@@ -284,6 +285,10 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     const OutlineView before = prev.view(), now = cur.view();
     StepEvidence out;
     out.by_picture = flat_or_bent(prev, cur, prev_from_cur, spacing_px);
+    if (is_tiny(prev) && is_tiny(cur)) {
+        out.by_picture = tiny_motion(prev, cur, out.by_picture, by_outline(prev, cur, spacing_px));
+        return out;
+    }
     // Where the surface is found again almost everywhere, nothing is left to be explained; but
     // shades alone are found again, too, and leave its colours behind.
     constexpr double kAlmostEverywhere = 0.95, kLeftBehind = 0.6;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/temporal/stretch_limit.h"
+#include "engine/temporal/tiny_surface.h"
 #include "engine/temporal/walk_state.h"
 
 namespace weft {
@@ -50,6 +51,7 @@ void SurfaceWalker::State::advance_stretched() {
 Registered SurfaceWalker::State::against(const Anchor& anchor, const StepFrame& cur,
                                          const LatticeField& motion,
                                          const LatticeField& initial) const {
+    if (is_tiny(cur) && is_tiny(*anchor.frame)) return register_tiny(anchor, cur, initial);
     Registered found = register_against(anchor, cur, choice.by_color(), initial, options.quality);
     if (choice.by_color()) return found;
     auto alike = exposure.registered(anchor, cur, motion, initial, found, options.quality);
@@ -59,6 +61,7 @@ Registered SurfaceWalker::State::against(const Anchor& anchor, const StepFrame& 
 // Against the present anchor, with all that can be learnt from it.
 Registered SurfaceWalker::State::against_present(const StepFrame& cur) {
     const Anchor& anchor = anchors.present();
+    if (is_tiny(cur) && is_tiny(*anchor.frame)) return register_tiny(anchor, cur, anchor_from_cur);
     RegistrationOptions few;
     few.samples = 20000;
     const bool colors = choice.by_color() && last->has_color() && cur.has_color();

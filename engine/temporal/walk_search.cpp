@@ -19,8 +19,9 @@ std::int64_t visible_pixels(ViewU8x1 visible) {
 
 bool SurfaceWalker::State::is_hidden(std::int64_t visible_px) {
     largest_px = std::max(largest_px, visible_px);
-    // A narrow strip does not determine the motion of the whole.
-    return visible_px < std::max<std::int64_t>(64, largest_px / 100);
+    // A narrow strip does not determine the motion of the whole. A tiny surface is followed by
+    // less.
+    return visible_px < std::max(std::min<std::int64_t>(64, largest_px / 4), largest_px / 100);
 }
 
 // A sliver's own motion is not reliable when it is extrapolated over the whole surface and many

@@ -49,8 +49,8 @@ add("movie/variable_rate", movie("a.mkv", ("-c:v", "ffv1", "-vsync", "vfr"), fil
                                  exits=EITHER, says=("rate|variable",)))
 add("movie/long_gap", movie("a.mkv", ("-c:v", "ffv1", "-vsync", "vfr"), filters="setpts='(N+gte(N,2)*50)*0.04/TB'", count=4, rate="1000",
                             exits=EITHER, says=("rate|variable",)))
-add("movie/interlaced", movie("a.mkv", ("-c:v", "mpeg2video", "-flags", "+ildct+ilme", "-top", "1"), filters="setfield=tff",
-                              exits=(UNREADABLE,), says=("[Ii]nterlace",)))
+add("movie/flagged_interlaced", movie("a.mkv", ("-c:v", "mpeg2video", "-flags", "+ildct+ilme", "-top", "1"), filters="setfield=tff",
+                                      exits=EITHER, says=("[Ii]nterlace",)))
 for _name, _tags in {"pq": ("bt2020", "smpte2084", "bt2020nc"), "hlg": ("bt2020", "arib-std-b67", "bt2020nc"),
                      "bt601": ("smpte170m", "smpte170m", "smpte170m"), "linear": ("bt709", "linear", "bt709"),
                      "p3": ("smpte432", "bt709", "bt709"), "unknown": ("unknown", "unknown", "unknown")}.items():

@@ -3,6 +3,8 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "engine/media/frame_reader.h"
 #include "engine/media/image_files.h"
 #include "tests/media/media_fixture.h"
@@ -10,7 +12,9 @@
 namespace weft {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 using Exr = MediaTest;
 
@@ -55,6 +59,25 @@ TEST_F(Exr, LayersAreTakenByName) {
     ReadOptions options;
     options.layer = "beauty";
     EXPECT_EQ(open_plate(in("a.exr"), options).value()->read(1001).value().rgb, beauty.rgb);
+}
+
+TEST_F(Exr, AStereoPlateSaysWhichViewIsUsed) {
+    OIIO::ImageSpec spec(6, 5, 6, OIIO::TypeHalf);
+    spec.channelnames = {"R", "G", "B", "right.R", "right.G", "right.B"};
+    const std::array<const char*, 2> views{"left", "right"};
+    spec.attribute("multiView", OIIO::TypeDesc(OIIO::TypeDesc::STRING, 2), views.data());
+    auto output = OIIO::ImageOutput::create(in("a.exr"));
+    ASSERT_TRUE(output->open(in("a.exr"), spec));
+    const auto data = numbered_channels(30, 6);
+    ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+    ASSERT_TRUE(output->close());
+    const auto plate = open_plate(in("a.exr"), {}).value();
+    EXPECT_THAT(plate->warnings(), ElementsAre(HasSubstr("its first view, left, is used")));
+    ReadOptions options;
+    options.layer = "right";
+    const auto right = open_plate(in("a.exr"), options).value();
+    EXPECT_THAT(right->warnings(), IsEmpty());
+    EXPECT_EQ(right->read(1001).value().rgb, constant(3.5f, 4.5f, 5.5f));
 }
 
 TEST_F(Exr, UnknownLayerListsThoseThereAre) {

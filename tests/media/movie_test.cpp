@@ -40,18 +40,46 @@ double mean_difference(const ImageF3& a, const ImageF3& b, Size size) {
     return sum / (3.0 * size.width * size.height);
 }
 
+// Bars that move by `step` px from half frame to half frame, upper lines first.
+ImageF3 moving_bars(Size size, int upper, int lower, int step) {
+    ImageF3 out(size);
+    for (int y = 0; y < size.height; ++y) {
+        const int at = step * (y % 2 == 0 ? upper : lower);
+        for (int x = 0; x < size.width; ++x) {
+            for (int c = 0; c < 3; ++c)
+                out.at(x, y, c) = (x - at + 1000) / 8 % 2 == 0 ? 0.25f : 0.75f;
+        }
+    }
+    return out;
+}
+
 TEST_F(Movie, InterlacedIsRefusedAndSaysWhatToDo) {
-    const std::vector<Codes> bars{{50, 128, 128, 0}, {200, 128, 128, 0}};
+    const Size size{96, 64};
+    for (const bool interlaced : {false, true}) {
+        auto movie = open_movie(in("a.mkv"), size, 25, 1, {.existing = Existing::kReplace});
+        ASSERT_TRUE(movie);
+        for (int k = 0; k < 6; ++k)
+            ASSERT_TRUE((*movie)->add(moving_bars(size, 2 * k, 2 * k + interlaced, 2)));
+        ASSERT_TRUE((*movie)->close());
+        const auto plate = open_plate(in("a.mkv"), {});
+        ASSERT_EQ(plate.has_value(), !interlaced);
+        if (plate) continue;
+        EXPECT_EQ(plate.error().code, ErrorCode::kUnreadable);
+        EXPECT_THAT(plate.error().message, HasSubstr("a.mkv"));
+        EXPECT_THAT(plate.error().message, HasSubstr("not flagged"));
+        EXPECT_THAT(plate.error().message, HasSubstr("Deinterlace it first"));
+    }
+}
+
+TEST_F(Movie, ProgressivePicturesThatAreFlaggedInterlacedAreUsed) {
     CodedMovie movie;
-    write_bars(in("progressive.mkv"), movie, bars);
-    EXPECT_TRUE(open_plate(in("progressive.mkv"), {}));
     movie.interlaced = true;
-    write_bars(in("interlaced.mkv"), movie, bars);
-    const auto plate = open_plate(in("interlaced.mkv"), {});
-    ASSERT_FALSE(plate);
-    EXPECT_EQ(plate.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(plate.error().message, HasSubstr("interlaced.mkv"));
-    EXPECT_THAT(plate.error().message, HasSubstr("Deinterlace it first"));
+    movie.stamps = {0, 1, 2};
+    write_bars(in("psf.mkv"), movie, {{50, 128, 128, 0}, {200, 128, 128, 0}});
+    const auto plate = open_plate(in("psf.mkv"), {});
+    ASSERT_TRUE(plate) << plate.error().text();
+    EXPECT_EQ((*plate)->frames().size(), 3u);
+    EXPECT_THAT((*plate)->warnings(), ElementsAre(HasSubstr("its pictures are progressive")));
 }
 
 TEST_F(Movie, LosslessComesBackBitForBit) {

@@ -140,6 +140,47 @@ TEST_F(RoundTrip, AlphaSurvivesUnmultiplied) {
     EXPECT_EQ(read_image(in("a.exr")).value().alpha, alpha);
 }
 
+// A grey of 0.5 under alpha 0.4, as each format holds it.
+TEST_F(RoundTrip, EachFormatHoldsColoursInItsOwnConvention) {
+    const ImageF1 alpha(4, 4, 0.4f);
+    const auto held = [&](const std::string& name, PixelDepth depth, AlphaKind given,
+                          const std::string& source = {}) {
+        WriteOptions options = at(depth);
+        options.alpha = given;
+        options.source = source;
+        options.rule.existing = Existing::kReplace;
+        const ImageF3 image(4, 4, given == AlphaKind::kStraight ? 0.5f : 0.2f);
+        EXPECT_TRUE(write_image(in(name), image, alpha, options));
+        return read_image(in(name)).value();
+    };
+    for (const AlphaKind given : {AlphaKind::kStraight, AlphaKind::kAssociated}) {
+        const PlateFrame png = held("a.png", PixelDepth::kU16, given);
+        EXPECT_EQ(png.alpha_kind, AlphaKind::kStraight);
+        EXPECT_NEAR(png.rgb.at(1, 1), 0.5f, 1e-4f);
+        const PlateFrame exr = held("a.exr", PixelDepth::kFloat, given);
+        EXPECT_EQ(exr.alpha_kind, AlphaKind::kAssociated);
+        EXPECT_NEAR(exr.rgb.at(1, 1), 0.2f, 1e-6f);
+        const PlateFrame tiff = held("a.tif", PixelDepth::kU16, given);
+        EXPECT_EQ(tiff.alpha_kind, AlphaKind::kStraight);
+        EXPECT_NEAR(tiff.rgb.at(1, 1), 0.5f, 1e-4f);
+        EXPECT_NEAR(held("a.jpg", PixelDepth::kU8, given).rgb.at(1, 1), 0.2f, 0.02f);
+        // A TIFF made from a TIFF keeps its tag and its samples.
+        const PlateFrame kept = held("b.tif", PixelDepth::kU16, given, in("a.tif"));
+        EXPECT_EQ(kept.alpha_kind, given);
+        EXPECT_NEAR(kept.rgb.at(1, 1), given == AlphaKind::kStraight ? 0.5f : 0.2f, 1e-4f);
+    }
+    // Only a file that can hold light without a body keeps colour under alpha 0 apart from it.
+    WriteOptions options = at(PixelDepth::kFloat);
+    options.rule.existing = Existing::kReplace;
+    ImageF1 some = alpha;
+    some.at(2, 2) = 0;
+    ASSERT_TRUE(write_image(in("c.exr"), ImageF3(4, 4, 0.5f), some, options));
+    EXPECT_EQ(read_image(in("c.exr")).value().rgb.at(2, 2), 0.0f);
+    options.alpha = AlphaKind::kAssociated;
+    ASSERT_TRUE(write_image(in("c.exr"), ImageF3(4, 4, 0.5f), some, options));
+    EXPECT_EQ(read_image(in("c.exr")).value().rgb.at(2, 2), 0.5f);
+}
+
 TEST_F(RoundTrip, TenBitDpxKeepsItsCodes) {
     ImageF3 image(1024, 2);
     for (int i = 0; i < 1024; ++i)
@@ -163,7 +204,7 @@ TEST_F(RoundTrip, JpegIsCloseAndNotSubsampled) {
             image.at(x, y, 2) = x == 30 ? 0.0f : 0.6f;
         }
     }
-    ASSERT_TRUE(write_image(in("a.jpg"), image, ImageF1(64, 64, 0.5f), at(PixelDepth::kU8)));
+    ASSERT_TRUE(write_image(in("a.jpg"), image, ImageF1(64, 64, 1.0f), at(PixelDepth::kU8)));
     const PlateFrame back = read_image(in("a.jpg")).value();
     EXPECT_TRUE(back.alpha.empty());
     double worst = 0;

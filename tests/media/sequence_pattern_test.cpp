@@ -65,7 +65,23 @@ TEST(SequencePattern, RefusesTwoNumbersAndNumbersInFolders) {
     EXPECT_TRUE(SequencePattern::parse("take#1/me@host/a.####.png"));
 }
 
+TEST(SequencePattern, ASingleCharacterBesideANumberIsPartOfTheName) {
+    EXPECT_EQ(pattern("take#2.####.png").path_for(7), "take#2.0007.png");
+    EXPECT_EQ(pattern("logo@2x.%03d.png").path_for(7), "logo@2x.007.png");
+    EXPECT_EQ(pattern("a#.png").path_for(7), "a7.png");
+    EXPECT_FALSE(SequencePattern::parse("a#b@.png"));
+}
+
 using SequenceFolder = MediaTest;
+
+TEST_F(SequenceFolder, AFileOfTheVeryNameIsThatFile) {
+    for (const char* name : {"logo@2x.png", "take#2.png"}) {
+        EXPECT_FALSE(pattern(in(name)).is_single()) << name;
+        put_frame(in(name), ImageF3(2, 2), PixelDepth::kU8);
+        EXPECT_TRUE(pattern(in(name)).is_single()) << name;
+        EXPECT_EQ(pattern(in(name)).path_for(7), in(name));
+    }
+}
 
 TEST_F(SequenceFolder, ListsAscending) {
     for (const char* name : {"p.0010.png", "p.0002.png", "p.-0003.png", "p.12345.png", "p.002.png",

@@ -187,5 +187,16 @@ TEST(CutWatch, SeesAnotherSceneAndNoSlowChange) {
     EXPECT_THAT(watch.cuts(), ElementsAre(5));
 }
 
+TEST(CutWatch, AFrameThatShowsNothingIsNoCut) {
+    CutWatch watch;
+    for (int frame = 1; frame <= 8; ++frame) {
+        const bool blank = frame == 4 || frame == 5;
+        const ImageF3 picture =
+            blank ? ImageF3(Card::kPlate, 1.0f) : pattern_picture(Card::kPlate, 1);
+        watch.look_at(frame, picture.view(), true);
+    }
+    EXPECT_THAT(watch.cuts(), ElementsAre());
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -1,0 +1,86 @@
+#include "engine/media/field_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace weft {
+namespace {
+
+constexpr Size kSize{120, 96};
+
+// A textured disc before a texture, at half frame `t`, that moves by `step` px from frame to frame.
+Matte picture(int t, double step_x, double step_y) {
+    Matte out(kSize);
+    const double x0 = 40 + 0.5 * t * step_x, y0 = 48 + 0.5 * t * step_y;
+    for (int y = 0; y < kSize.height; ++y) {
+        for (int x = 0; x < kSize.width; ++x) {
+            const double u = x - x0, v = y - y0;
+            const double back = 90 + 30 * std::sin(0.21 * x) * std::cos(0.33 * y);
+            const double front = 150 + 60 * std::sin(0.4 * u + 0.2 * v) * std::cos(0.5 * v);
+            out.at(x, y) = static_cast<std::uint8_t>(u * u + v * v < 900 ? front : back);
+        }
+    }
+    return out;
+}
+
+Matte woven(const Matte& upper, const Matte& lower) {
+    Matte out = upper;
+    for (int y = 1; y < kSize.height; y += 2)
+        std::copy_n(lower.row(y), kSize.width, out.row(y));
+    return out;
+}
+
+// `fields`: the half frames at which frame k's upper and lower lines were taken.
+Fields seen(const std::function<std::pair<int, int>(int)>& fields, double step_x, double step_y,
+            double least_share = 0.2) {
+    FieldMeter meter;
+    for (int k = 0; k < 10; ++k) {
+        const auto [upper, lower] = fields(k);
+        meter.add(woven(picture(upper, step_x, step_y), picture(lower, step_x, step_y)));
+    }
+    return meter.fields(least_share);
+}
+
+std::pair<int, int> one_moment(int k) {
+    return {2 * k, 2 * k};
+}
+std::pair<int, int> upper_first(int k) {
+    return {2 * k, 2 * k + 1};
+}
+std::pair<int, int> lower_first(int k) {
+    return {2 * k + 1, 2 * k};
+}
+
+TEST(FieldMeter, TellsOneMomentFromTwo) {
+    for (const auto& [x, y] : {std::pair(2.0, 0.0), {1.0, 1.0}, {0.0, 2.0}, {7.0, 3.0}}) {
+        EXPECT_EQ(seen(one_moment, x, y), Fields::kProgressive) << x << ", " << y;
+        EXPECT_EQ(seen(upper_first, x, y, 0.5), Fields::kInterlaced) << x << ", " << y;
+        EXPECT_EQ(seen(lower_first, x, y, 0.5), Fields::kInterlaced) << x << ", " << y;
+    }
+}
+
+TEST(FieldMeter, FindsTheMixedFramesOfTelecine) {
+    // Film frames A A B C D: 2:3 pulldown mixes two frames of five.
+    const auto telecine = [](int k) {
+        const int film = k / 5 * 4;
+        constexpr int kUpper[] = {0, 1, 1, 2, 3}, kLower[] = {0, 1, 2, 3, 3};
+        return std::pair(2 * (film + kUpper[k % 5]), 2 * (film + kLower[k % 5]));
+    };
+    EXPECT_EQ(seen(telecine, 3, 1), Fields::kInterlaced);
+}
+
+TEST(FieldMeter, KnowsNothingOfWhatStandsStill) {
+    EXPECT_EQ(seen(upper_first, 0, 0), Fields::kUnknown);
+    FieldMeter meter;
+    for (int k = 0; k < 4; ++k) {
+        meter.skip();
+        meter.add(picture(8 * k, 2, 0));
+    }
+    EXPECT_EQ(meter.fields(0.2), Fields::kUnknown);
+}
+
+}  // namespace
+}  // namespace weft
