@@ -24,9 +24,8 @@ constexpr float kDarkest = 0.25f;  // of the frames
 constexpr float kLowQuarter = 0.25f;
 constexpr float kBlack = 1e-4f;  // linear light
 constexpr int kLevelRounds = 2;
-// Of the brightest frame's light: what a fade leaves of gloss is mostly noise.
-constexpr float kFaded = 0.05f;
-constexpr int kWindow = 3;  // radius in which paint is compared with what moves, pixels
+constexpr float kFaded = 0.05f;  // of the usual light: what a fade leaves of gloss is noise
+constexpr int kWindow = 3;       // radius in which paint is compared with what moves, pixels
 
 // What tells gloss from moving shadows, measured on rendered surfaces with gloss and without.
 // Highlights are bright and rare, so the median over time lies near the dark end.
@@ -357,9 +356,7 @@ StillSurface StillSurfaceGatherer::finish(float daylight) {
         if (round + 1 == kLevelRounds) break;
         for (Part& part : parts_)
             part.level = fast_exp(low_level(part, out.box, middle, out.known));
-        const auto darker = [](const Part& a, const Part& b) { return a.level < b.level; };
-        const float full = std::max_element(parts_.begin(), parts_.end(), darker)->level;
-        std::erase_if(parts_, [&](const Part& part) { return part.level < kFaded * full; });
+        std::erase_if(parts_, [](const Part& part) { return part.level < kFaded; });
     }
     if (!(changes.places >= static_cast<double>(kFewestPlaces))) return {};
     ImageF1 luma(out.box.size());

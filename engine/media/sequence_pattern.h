@@ -10,7 +10,8 @@
 namespace weft {
 
 /// A numbered file name: `####` or `@@@@` (at least as many digits as characters), `%04d`, `%d`. A
-/// name without any of these is a single file (is_single()).
+/// name without any of these is a single file (is_single()). A single # or @ is an ordinary
+/// character where the name has a longer placeholder, and where a file of that very name exists.
 class SequencePattern {
   public:
     /// Errors: Usage if the name has more than one placeholder, or the folder part has one (a
