@@ -6,11 +6,11 @@
 #include "app/render/input_hashes.h"
 #include "app/render/job_frames.h"
 #include "app/render/memory_plan.h"
-#include "app/render/motion_check.h"
 #include "app/render/plane_file.h"
 #include "app/render/recipe.h"
 #include "app/render/st_map_files.h"
 #include "app/shot/frame_plan.h"
+#include "app/shot/motion_check.h"
 #include "engine/core/setting.h"
 #include "engine/media/movies.h"
 

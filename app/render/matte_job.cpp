@@ -89,9 +89,8 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
     options.files = open_fingerprints(spec.cache);
     WEFT_TRY(shot, open_shot(spec.project, options));
     const ShotPlan& plan = shot->plan;
-    if (plan.regions.size() != 1) {
+    if (plan.regions.size() != 1)
         return fail(ErrorCode::kUsage, "Mattes are made for one region at a time.");
-    }
     WriteRule rule;
     WEFT_TRY(fence, make_fence(spec.project, spec.limits));
     rule.fence = fence;

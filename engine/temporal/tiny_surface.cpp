@@ -118,11 +118,13 @@ class Comparison {
         for (int y = -reach; y <= reach; ++y)
             for (int x = -reach; x <= reach; ++x)
                 look({static_cast<float>(x), static_cast<float>(y)});
-        for (float step = 0.5f; step >= kFinest_px; step /= 2) {
+        float step = 0.5f;
+        while (step >= kFinest_px) {
             const Vec2 about = found;
-            for (int k = 0; k < 9; ++k)
-                look(about +
-                     step * Vec2(static_cast<float>(k % 3 - 1), static_cast<float>(k / 3 - 1)));
+            for (int y = -1; y <= 1; ++y)
+                for (int x = -1; x <= 1; ++x)
+                    look(about + step * Vec2(static_cast<float>(x), static_cast<float>(y)));
+            step /= 2;
         }
         return found;
     }

@@ -1,4 +1,4 @@
-#include "app/render/motion_check.h"
+#include "app/shot/motion_check.h"
 
 #include <gtest/gtest.h>
 

@@ -40,7 +40,7 @@ TEST_F(SaveQuestionPanel, CancelAndEscapeSaveNothing) {
     ASSERT_TRUE(robot->click("Cancel"));
     EXPECT_THAT(emitted<AnswerSave>(), ElementsAre(AnswerSave{}));
     clear();
-    robot->key("Escape");
+    robot->key("Esc");
     EXPECT_THAT(emitted<AnswerSave>(), ElementsAre(AnswerSave{}));
     EXPECT_THAT(emitted<Save>(), IsEmpty());
 }
