@@ -255,7 +255,7 @@ TEST_F(MeasureForm, BadInputIsAnErrorThatSaysWhatToDo) {
                    {"p/0001.exr", "no layer st", "--layers st", "R, G, B"});
     expect_failure(measure({"--st", "layers/none.####.exr"}), 4, {"none.####.exr"});
     expect_failure(measure({"--position-layer", "nowhere"}), 3,
-                   {"p/0001.exr", "no position pass", "--position-layer"});
+                   {"p/0001.exr", "the channels of a position pass", "--position-layer"});
     put_places("small.exr", {80, 60});
     expect_failure(measure({"--position-pass", "small.exr"}), 3, {"small.exr", "80x60", "160x120"});
     put_places("unknown.exr", Card::kPlate, 1e12f);
