@@ -183,12 +183,12 @@ const ImageF1& Departure::advance(ViewF1 prev_phi, const FlowField& flow, float 
     return odds_;
 }
 
-void Departure::forget(ViewU8x1 where) {
+void Departure::correct(ViewU8x1 where, ViewU8x1 inside) {
     for (int y = 0; y < where.height(); ++y) {
         for (int x = 0; x < where.width(); ++x) {
             if (where.row(y)[x] == 0) continue;
             odds_.at(x, y) = 0;
-            age_.at(x, y) = 0;
+            age_.at(x, y) = inside.row(y)[x] != 0 ? kOldest : 0.0f;
         }
     }
 }

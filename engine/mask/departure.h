@@ -28,8 +28,9 @@ class Departure {
     /// odds for inside, H×W, −kMostAgainst to kMostFor. Parallel over rows; deterministic.
     const ImageF1& advance(ViewF1 prev_phi, const FlowField& flow, float unit_px);
 
-    /// Nothing has been seen of the pixels of the last frame that are not 0 here.
-    void forget(ViewU8x1 where);
+    /// The pixels of the last frame that are not 0 in `where` are known to be inside, or outside,
+    /// as `inside` says; what their motion said is forgotten.
+    void correct(ViewU8x1 where, ViewU8x1 inside);
 
     static constexpr float kMostAgainst = 6;
     /// Less than against, because measured motion spreads over edges.

@@ -38,17 +38,15 @@ constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
 template <class T, int C>
 Image<T, C> copy_of(ImageView<const T, C> v) {
     Image<T, C> result(v.size());
-    for (int y = 0; y < v.height(); ++y) {
+    for (int y = 0; y < v.height(); ++y)
         std::copy(v.row(y), v.row(y) + static_cast<std::ptrdiff_t>(v.width()) * C, result.row(y));
-    }
     return result;
 }
 
 template <class T, int C>
 void paste(Image<T, C>& into, const Image<T, C>& part, const Recti& at) {
-    for (int y = 0; y < part.height(); ++y) {
+    for (int y = 0; y < part.height(); ++y)
         std::copy(part.row(y), part.row(y) + part.stride(), into.pixel(at.x0, at.y0 + y));
-    }
 }
 
 Vec2i rounded(float x, float y) {
@@ -329,7 +327,7 @@ MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
         move_seen(s.seen, s.phi);
         s.plate.forget(wrong);
         s.plate.update(s.frame, s.seen_phi());
-        s.departure.forget(wrong);
+        s.departure.correct(wrong, inside);
         s.sides.forget(wrong);
         s.newcomers.forget(wrong);
     }
@@ -359,6 +357,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
         s.confirmed.clear();
+        s.departure = Departure(phi);
         s.sides = {};
         s.newcomers = {};
     } else {

@@ -84,14 +84,34 @@ TEST(Departure, ForgetsWhatWasCorrected) {
     const ImageF1 before = scene.phi();
     scene.step();
     const float once = departure.advance(before, scene.flow, 1).at(20, 20);
-    Matte where(kFrame);
+    Matte where(kFrame), inside(kFrame);
     where.at(20, 20) = 255;
-    departure.forget(where);
+    departure.correct(where, inside);
     const ImageF1 later = scene.phi();
     scene.step();
     const ImageF1& odds = departure.advance(later, scene.flow, 1);
     EXPECT_NEAR(odds.at(20, 20), once, 0.01f);
     EXPECT_LT(odds.at(24, 20), once - 1);
+}
+
+TEST(Departure, SparesWhatWasConfirmedInside) {
+    // A strip left of the surface, which rests, is painted in on the first frame or taken for it.
+    constexpr int kStrip_px = 12;
+    const auto odds_of = [](bool confirmed) {
+        Scene scene;
+        Departure departure(scene.phi());
+        const Recti strip{scene.square.x0 - kStrip_px, 80, scene.square.x0, 160};
+        Matte where(kFrame);
+        for (int y = strip.y0; y < strip.y1; ++y)
+            for (int x = strip.x0; x < strip.x1; ++x)
+                where.at(x, y) = 255;
+        if (confirmed) departure.correct(where, where);
+        const ImageF1 before = scene.phi(kStrip_px);
+        scene.step();
+        return departure.advance(before, scene.flow, 1).at(strip.x0 + 6, 120);
+    };
+    EXPECT_LT(odds_of(false), -2);
+    EXPECT_GT(odds_of(true), -1.2f);
 }
 
 }  // namespace
