@@ -7,6 +7,7 @@
 #include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
 #include "engine/core/hash.h"
+#include "engine/media/plates.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/pipeline/region_mattes.h"
 
@@ -22,6 +23,7 @@ constexpr int kFocusVersion = 2;  // of the focus alone
 struct Files {
     Fingerprints& known;
     const PaintedMattes& painted;  // those without a file
+    int first_frame;               // of the plate
 };
 
 void add(Hasher& hasher, const Expected<Hash128>& file) {
@@ -43,6 +45,8 @@ Status add_pattern(Hasher& hasher, const std::string& text, const Files& files) 
     WEFT_TRY(pattern, SequencePattern::parse(text));
     hasher.value(pattern.is_single());
     if (pattern.is_single()) {
+        // A movie's first frame is that of the plate.
+        if (has_movie_extension(text)) hasher.value(files.first_frame);
         add_file(hasher, text, files);
         return {};
     }
@@ -338,7 +342,8 @@ void RegionKeys::adopt(
 
 Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
                                  const PaintedMattes& painted) {
-    const Files files{*shot.files, painted};
+    const FrameReader& plate = *shot.plate;
+    const Files files{*shot.files, painted, plate.shown_frame(plate.frames().front())};
     WEFT_TRY(surface, surface_key(shot, index, files));
     const Region& region = *shot.project.regions[shot.region_index[index]];
     WEFT_TRY(form, form_key(shot, index, surface, files));

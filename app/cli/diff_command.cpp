@@ -8,8 +8,7 @@
 #include "engine/media/atomic_file.h"
 #include "engine/media/frame_reader.h"
 #include "engine/media/frame_writer.h"
-#include "engine/media/image_files.h"
-#include "engine/media/sequence_pattern.h"
+#include "engine/media/matte_files.h"
 #include "engine/metrics/likeness.h"
 #include "engine/metrics/sequence_diff.h"
 
@@ -44,10 +43,10 @@ Expected<Outcome> compare(const DiffOptions& options) {
     WEFT_TRY(a, open_plate(options.a, {}));
     WEFT_TRY(b, open_plate(options.b, {}));
     WEFT_TRY(frames, common_frames(options, *a, *b));
-    std::optional<SequencePattern> mattes;
+    std::optional<MatteFiles> mattes;
     if (!options.matte.empty()) {
-        WEFT_TRY(pattern, SequencePattern::parse(options.matte));
-        mattes = std::move(pattern);
+        WEFT_TRY(files, MatteFiles::parse(options.matte, a->frames().front()));
+        mattes = std::move(files);
     }
     const bool single =
         a->frames().size() == 1 && b->frames().size() == 1 && options.frames.empty();
@@ -58,9 +57,8 @@ Expected<Outcome> compare(const DiffOptions& options) {
         auto diff = diff_frames(left.rgb, right.rgb);
         if (!diff) return fail_in(std::move(diff).error(), "Frame " + std::to_string(frame));
         if (mattes) {
-            WEFT_TRY(matte, read_matte(mattes->path_for(frame),
-                                       {options.matte_value, options.matte_channel, false},
-                                       left.rgb.size()));
+            WEFT_TRY(matte, mattes->read(frame, {options.matte_value, options.matte_channel, false},
+                                         left.rgb.size()));
             out.likeness.add(frame, left.rgb, right.rgb, matte);
         }
         const double largest = *std::max_element(diff->max_abs.begin(), diff->max_abs.end());

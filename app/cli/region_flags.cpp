@@ -109,7 +109,7 @@ ProjectFlags::ProjectFlags(CLI::App& command, const Which& which) {
     if (which.matte) {
         command
             .add_option("--matte", mattes_,
-                        "Matte for every frame ('masks/####.png'), a painted keyframe "
+                        "Matte for every frame ('masks/####.png', or a movie), a painted keyframe "
                         "(12=a.png, repeatable), or objects of a Cryptomatte (crypto:NAME)")
             ->type_name("PATH")
             ->expected(1)

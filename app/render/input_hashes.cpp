@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/media/cryptomatte.h"
+#include "engine/media/plates.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/pipeline/focus_frames.h"
 
@@ -189,6 +190,8 @@ void InputHashes::add_path(InputKind kind, const std::string& path, const FrameS
     if (!pattern || pattern->is_single() || fs::is_regular_file(path, ignored)) {
         Hasher hasher;
         add(hasher, region.fixed[index_of(kind)]);
+        // A matte's first frame is that of the plate, wherever that begins.
+        if (has_movie_extension(path)) hasher.value(there_.first);
         add(hasher, contents_of(path));
         region.fixed[index_of(kind)] = hasher.finish();
         return;

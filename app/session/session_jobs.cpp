@@ -10,6 +10,7 @@
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
 #include "app/session/session_measuring.h"
+#include "app/shot/matte_movies.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
 #include "engine/metrics/matte_chatter.h"
@@ -189,11 +190,12 @@ void Session::measure(const std::string& pattern) {
              .regions[find_region(document(), std::to_string(selected_)).value_or(0)]
              ->matte;
     const Size size = reader_->size();
-    in.matte = [this, source, size, drawn = drawn_, id = region->id](int frame) -> Expected<Matte> {
+    in.matte = [this, source, size, plate = reader_, drawn = drawn_,
+                id = region->id](int frame) -> Expected<Matte> {
         if (!source.shape.empty()) return drawn->matte(source.shape, source.select.invert, frame);
         if (source.files.empty()) return preview_.propagated_matte(id, 0, frame);
-        WEFT_TRY(files, SequencePattern::parse(source.files));
-        return read_matte(files.path_for(frame), source.select, size);
+        WEFT_TRY(files, matte_files(source.files, *plate));
+        return files.read(frame, source.select, size);
     };
     in.track = [this, id = region->id](int before, int now) {
         return preview_.track(id, before, now);

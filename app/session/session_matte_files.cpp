@@ -6,6 +6,7 @@
 #include "app/mattes/matte_layer.h"
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
+#include "app/shot/matte_movies.h"
 #include "app/shot/region_projection.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
@@ -49,8 +50,8 @@ void Session::write_mattes(const std::string& pattern_text, MatteEdges edges,
     const MatteEdgePlan edge =
         edges == MatteEdges::kAsShown ? project_edge(source.edge) : MatteEdgePlan();
     start_for_document([this, pattern_text, frames, source, edge, size = reader_->size(), absolute,
-                        file = path_, id = region->id, layer = layer_, drawn = drawn_,
-                        then = std::move(then)]() -> Finish {
+                        plate = reader_, file = path_, id = region->id, layer = layer_,
+                        drawn = drawn_, then = std::move(then)]() -> Finish {
         shelf_.flush();
         const auto write = [&]() -> Status {
             WEFT_TRY(pattern, SequencePattern::parse(pattern_text));
@@ -61,8 +62,8 @@ void Session::write_mattes(const std::string& pattern_text, MatteEdges edges,
                 if (!source.shape.empty()) {
                     matte = drawn->matte(source.shape, source.select.invert, frame);
                 } else if (!source.files.empty()) {
-                    WEFT_TRY(files, SequencePattern::parse(source.files));
-                    matte = read_matte(files.path_for(frame), source.select, size);
+                    WEFT_TRY(files, matte_files(source.files, *plate));
+                    matte = files.read(frame, source.select, size);
                 } else if (const auto key = source.keyframes.find(frame);
                            key != source.keyframes.end()) {
                     matte = read_matte(key->second.path, source.select, size);

@@ -9,6 +9,7 @@
 #include "app/mattes/matte_layer.h"
 #include "app/project/codec/project_file.h"
 #include "app/session/session.h"
+#include "app/shot/matte_movies.h"
 #include "app/shot/region_projection.h"
 #include "engine/core/hash.h"
 #include "engine/media/image_files.h"
@@ -95,15 +96,17 @@ RegionMatteView Session::matte_of(const Region& region, int layer, int frame, in
         std::tie(name, read) = drawn_matte(source, frame);
     } else if (!files.empty()) {
         out.kind = RegionMatteView::Kind::kFile;
-        const auto pattern = SequencePattern::parse(resolve_path(dir, files));
-        if (!pattern) {
+        const auto mattes = matte_files(resolve_path(dir, files), *reader_);
+        if (!mattes) {
             out.kind = RegionMatteView::Kind::kFailed;
-            out.error = pattern.error().text();
+            out.error = mattes.error().text();
             return out;
         }
-        const std::string path = pattern->path_for(frame);
-        name = path + "|" + select_text(source.select);
-        read = [path, select = source.select, size] { return read_matte(path, select, size); };
+        name = mattes->path_for(frame) + "|" + select_text(source.select);
+        if (mattes->is_movie()) name += "|" + std::to_string(frame);
+        read = [mattes = *mattes, select = source.select, size, frame] {
+            return mattes.read(frame, select, size);
+        };
     } else if (const auto key = source.keyframes.find(frame); key != source.keyframes.end()) {
         out.kind = RegionMatteView::Kind::kPainted;
         const std::string path = resolve_path(dir, key->second.path);

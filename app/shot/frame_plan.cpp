@@ -7,6 +7,7 @@
 #include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
 #include "app/shot/frame_gaps.h"
+#include "app/shot/matte_movies.h"
 #include "app/shot/reference_choice.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/setting.h"
@@ -53,6 +54,11 @@ std::string around_gap(const Region& region, const RegionPlan& plan, const ShotP
            by({{setting::kFrames}}) + ".";
 }
 
+// A movie is one file, whatever it lacks.
+const char* lacks(const MatteFiles& files) {
+    return files.is_movie() ? " has no picture for " : " has no file for ";
+}
+
 // Checks the files needed from the reference frame to the frames to render.
 struct Followed {
     const Region& region;
@@ -73,9 +79,9 @@ struct Followed {
 
     // Where the plate repeats a frame in place of a missing one, its other files are repeated too.
     [[nodiscard]] Status check(const std::string& text, const char* what) const {
-        WEFT_TRY(pattern, SequencePattern::parse(text));
-        if (pattern.is_single()) return {};
-        WEFT_TRY(present, pattern.list_frames());
+        WEFT_TRY(files, matte_files(text, plate));
+        if (files.is_single()) return {};
+        WEFT_TRY(present, files.list_frames());
         std::vector<int> usable;
         for (const int frame : plate.frames()) {
             if (std::binary_search(present.begin(), present.end(), frame) ||
@@ -86,7 +92,7 @@ struct Followed {
         const auto gaps = gaps_in(usable, span);
         if (gaps.empty()) return {};
         return fail(ErrorCode::kMissingFrames,
-                    std::string(what) + " " + text + " has no file for " + gaps_text(gaps) +
+                    std::string(what) + " " + text + lacks(files) + gaps_text(gaps) +
                         ", which the surface has to be followed through from its reference frame " +
                         std::to_string(plan.reference_frames.front()) + ". " +
                         around_gap(region, plan, shot, plate, usable));
@@ -96,16 +102,16 @@ struct Followed {
 // Where the plate repeats a frame in place of a missing one, its other files are repeated too.
 Status check_pattern(const std::string& text, const char* what, const std::vector<int>& wanted,
                      const FrameReader& plate, const std::string& remedy) {
-    WEFT_TRY(pattern, SequencePattern::parse(text));
-    if (pattern.is_single()) return {};
-    WEFT_TRY(present, pattern.list_frames());
+    WEFT_TRY(files, matte_files(text, plate));
+    if (files.is_single()) return {};
+    WEFT_TRY(present, files.list_frames());
     std::vector<int> missing = missing_in(wanted, present);
     std::erase_if(missing, [&](int frame) {
         return plate.shown_frame(frame) != frame &&
                std::binary_search(present.begin(), present.end(), plate.shown_frame(frame));
     });
     if (missing.empty()) return {};
-    return fail(ErrorCode::kMissingFrames, std::string(what) + " " + text + " has no file for " +
+    return fail(ErrorCode::kMissingFrames, std::string(what) + " " + text + lacks(files) +
                                                frames_text(missing) + ". " + remedy);
 }
 
@@ -122,22 +128,6 @@ std::vector<int> motion_frames(const RegionPlan& plan, const FrameSpan& span) {
                                : frames_between(span.first + 1, span.last);
 }
 
-// The frames of `frames` for which the pattern has a file; all for a still or no pattern.
-Expected<std::vector<int>> with_files(const std::string& text, std::vector<int> frames) {
-    if (text.empty()) return frames;
-    WEFT_TRY(pattern, SequencePattern::parse(text));
-    if (pattern.is_single()) return frames;
-    WEFT_TRY(present, pattern.list_frames());
-    std::vector<int> both;
-    std::set_intersection(frames.begin(), frames.end(), present.begin(), present.end(),
-                          std::back_inserter(both));
-    std::erase_if(both, [&](int frame) {
-        std::error_code ignored;  // a link may lead nowhere
-        return !std::filesystem::exists(pattern.path_for(frame), ignored);
-    });
-    return both;
-}
-
 }  // namespace
 
 Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, int reference,
@@ -147,7 +137,7 @@ Expected<FrameSpan> run_around(const Region& region, const FrameReader& plate, i
     for (const MatteSource& holdout : *region.holdouts)
         patterns.push_back(holdout.files);
     for (const std::string& pattern : patterns) {
-        WEFT_TRY(left, with_files(pattern, std::move(frames)));
+        WEFT_TRY(left, frames_with_files(pattern, plate, std::move(frames)));
         frames = std::move(left);
     }
     std::vector<SequencePattern> files;
@@ -196,7 +186,7 @@ Expected<std::vector<int>> focus_frames(const Region& region, const RegionPlan& 
     if (!(plan.focus > 0)) return std::vector<int>{};
     std::vector<int> frames = plate.frames();
     for (const std::string& pattern : focus_files(region)) {
-        WEFT_TRY(left, with_files(pattern, std::move(frames)));
+        WEFT_TRY(left, frames_with_files(pattern, plate, std::move(frames)));
         frames = std::move(left);
     }
     FrameSpan run{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};

@@ -5,6 +5,7 @@
 
 #include "app/shot/drawn_mattes.h"
 #include "app/shot/form_files.h"
+#include "app/shot/matte_movies.h"
 #include "engine/color/color_space.h"
 #include "engine/core/text.h"
 #include "engine/media/form_passes.h"
@@ -98,10 +99,9 @@ class ProjectSource final : public ShotSource {
     [[nodiscard]] Expected<Matte> lines(int region, int frame) const override {
         const LineParams& lines = at(region).lines;
         if (lines.files.empty()) return Matte();
-        WEFT_TRY(pattern, SequencePattern::parse(lines.files));
         MatteSelect select;
         select.invert = lines.invert;
-        return read_matte(watched(path_on(pattern, frame)), select, size());
+        return read_files(lines.files, select, frame);
     }
 
     [[nodiscard]] Expected<ImageF1> depth(int region, int frame) const override {
@@ -197,8 +197,14 @@ class ProjectSource final : public ShotSource {
             if (source.shape.follow != ShapeFollow::kNone) (void)watched(source.shape.track);
             return drawn_.matte(source.shape, source.select.invert, frame);
         }
-        WEFT_TRY(pattern, SequencePattern::parse(source.files));
-        return read_matte(watched(path_on(pattern, frame)), source.select, size());
+        return read_files(source.files, source.select, frame);
+    }
+    [[nodiscard]] Expected<Matte> read_files(const std::string& text, const MatteSelect& select,
+                                             int frame) const {
+        WEFT_TRY(files, matte_files(text, *plate_));
+        const int given = matte_frame(files, frame, *plate_);
+        static_cast<void>(watched(files.path_for(given)));
+        return files.read(given, select, size());
     }
     [[nodiscard]] Expected<Matte> read_keyframe(const MatteSource& source, int frame) const {
         return read_painted(source.select, source.keyframes.at(frame).path);

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "app/shot/frame_plan.h"
+#include "app/shot/matte_movies.h"
 #include "engine/core/parallel.h"
 #include "engine/mask/matte_box.h"
 #include "engine/mask/surface_visibility.h"
-#include "engine/media/image_files.h"
-#include "engine/media/plates.h"
-#include "engine/media/sequence_pattern.h"
+#include "engine/media/matte_files.h"
 
 namespace weft {
 namespace {
@@ -23,35 +22,45 @@ constexpr std::array<std::size_t, 4> kLooks{9, 33, 129, 257};
 constexpr std::size_t kAtOnce = 2;
 constexpr std::size_t kMostKept = 100'000;
 
-// The file of a source on a frame; nothing if it is painted on other frames only.
-std::optional<std::string> file_on(const MatteSource& source, int frame) {
-    if (source.files.empty()) {
-        const auto key = source.keyframes.find(frame);
-        if (key == source.keyframes.end()) return std::nullopt;
-        return key->second.path;
-    }
-    const auto pattern = SequencePattern::parse(source.files);
-    if (!pattern) return std::nullopt;
-    return pattern->path_for(frame);
-}
-
-void hash_source(Hasher& hasher, const MatteSelect& select, const std::string& path) {
-    if (const auto stamp = stamp_file(path, 0)) hasher.value(stamp->high).value(stamp->low);
-    hasher.value(select.value.value_or(-1)).value(select.value.has_value()).value(select.invert);
-    hasher.text(select.channel).text(select.crypto).text(path);
-}
-
+// What a source has on a frame.
 struct Layer {
-    std::string path;
+    MatteFiles files;
+    int frame;
     MatteSelect select;
 };
 
+// Nothing if it is painted on other frames only.
+std::optional<Layer> layer_on(const MatteSource& source, int frame, const FrameReader& plate) {
+    if (source.files.empty()) {
+        const auto key = source.keyframes.find(frame);
+        if (key == source.keyframes.end()) return std::nullopt;
+        return Layer{MatteFiles::single(key->second.path), frame, source.select};
+    }
+    auto files = matte_files(source.files, plate);
+    if (!files) return std::nullopt;
+    return Layer{std::move(*files), frame, source.select};
+}
+
+Expected<Matte> read_layer(const Layer& layer, Size size, const PaintedMattes& painted) {
+    const std::string path = layer.files.path_for(layer.frame);
+    if (painted.contains(path)) return read_matte(path, layer.select, size, painted);
+    return layer.files.read(layer.frame, layer.select, size);
+}
+
+void hash_layer(Hasher& hasher, const Layer& layer) {
+    const MatteSelect& select = layer.select;
+    if (const auto stamp = layer.files.stamp(layer.frame))
+        hasher.value(stamp->high).value(stamp->low);
+    hasher.value(select.value.value_or(-1)).value(select.value.has_value()).value(select.invert);
+    hasher.text(select.channel).text(select.crypto).text(layer.files.path_for(layer.frame));
+}
+
 // The region's matte on a frame and its holdouts. Painted holdouts are ignored, because frames
 // without a keyframe would seem to show more.
-std::vector<Layer> layers_on(const Region& region, int frame) {
+std::vector<Layer> layers_on(const Region& region, int frame, const FrameReader& plate) {
     std::vector<Layer> layers;
     const auto add = [&](const MatteSource& source) {
-        if (auto path = file_on(source, frame)) layers.push_back({std::move(*path), source.select});
+        if (auto layer = layer_on(source, frame, plate)) layers.push_back(std::move(*layer));
     };
     add(*region.matte);
     if (layers.empty()) return layers;
@@ -64,11 +73,11 @@ std::vector<Layer> layers_on(const Region& region, int frame) {
 std::optional<double> score_of(const std::vector<Layer>& layers, Size size,
                                const PaintedMattes& painted) {
     if (layers.empty()) return std::nullopt;
-    const auto matte = read_matte(layers[0].path, layers[0].select, size, painted);
+    const auto matte = read_layer(layers[0], size, painted);
     if (!matte) return std::nullopt;
     Matte holdout;
     for (std::size_t k = 1; k < layers.size(); ++k) {
-        auto one = read_matte(layers[k].path, layers[k].select, size, painted);
+        auto one = read_layer(layers[k], size, painted);
         if (!one) return std::nullopt;
         if (holdout.empty()) {
             holdout = std::move(*one);
@@ -82,10 +91,10 @@ std::optional<double> score_of(const std::vector<Layer>& layers, Size size,
 
 std::optional<double> score_on(const Region& region, const FrameReader& plate, int frame,
                                const MatteLooks& looks) {
-    const std::vector<Layer> layers = layers_on(region, frame);
+    const std::vector<Layer> layers = layers_on(region, frame, plate);
     Hasher hasher;
     for (const Layer& layer : layers)
-        hash_source(hasher, layer.select, layer.path);
+        hash_layer(hasher, layer);
     const Hash128 files = hasher.finish();
     if (looks.memory) {
         if (const auto known = looks.memory->find(files)) return known;
@@ -112,9 +121,9 @@ Expected<std::vector<int>> candidates(const Region& region, const FrameReader& p
             if (region.matte->shape.keys.contains(frame)) drawn.push_back(frame);
         return drawn.empty() ? frames : drawn;
     }
-    WEFT_TRY(pattern, SequencePattern::parse(region.matte->files));
-    if (pattern.is_single()) return frames;
-    WEFT_TRY(mattes, pattern.list_frames());
+    WEFT_TRY(files, matte_files(region.matte->files, plate));
+    if (files.is_single()) return frames;
+    WEFT_TRY(mattes, files.list_frames());
     std::erase_if(frames, [&](int frame) {
         return !std::binary_search(mattes.begin(), mattes.end(), frame);
     });
@@ -126,10 +135,10 @@ Expected<std::vector<int>> candidates(const Region& region, const FrameReader& p
 }
 
 // Returns true for one matte for all frames and no animated holdouts.
-bool same_everywhere(const Region& region) {
-    const auto single = [](const MatteSource& source) {
-        const auto pattern = SequencePattern::parse(source.files);
-        return source.files.empty() || (pattern && pattern->is_single());
+bool same_everywhere(const Region& region, const FrameReader& plate) {
+    const auto single = [&](const MatteSource& source) {
+        const auto files = matte_files(source.files, plate);
+        return source.files.empty() || (files && files->is_single());
     };
     return region.matte->keyframes.empty() && single(*region.matte) &&
            std::all_of(region.holdouts->begin(), region.holdouts->end(), single);
@@ -161,7 +170,7 @@ Expected<ReferenceChoice> choose_reference(const Region& region, const FrameRead
     const int first = frames.front();
     std::erase_if(frames, [&](int f) { return f < range.first || f > range.last; });
     if (frames.empty()) return ReferenceChoice{first, first, false};
-    if (frames.size() == 1 || !region.matte->shape.empty() || same_everywhere(region))
+    if (frames.size() == 1 || !region.matte->shape.empty() || same_everywhere(region, plate))
         return ReferenceChoice{frames.front(), frames.front(), true};
     std::map<std::size_t, double> seen;  // score by index, in frame order
     for (const std::size_t count_looked : kLooks) {
@@ -194,9 +203,8 @@ Expected<ReferenceChoice> choose_reference(const Region& region, const FrameRead
 Recti surface_box(const Region& region, const FrameReader& plate, int frame,
                   const MatteLooks& looks) {
     static const PaintedMattes kNone;
-    if (const auto path = file_on(*region.matte, frame)) {
-        const auto matte = read_matte(*path, region.matte->select, plate.size(),
-                                      looks.painted ? *looks.painted : kNone);
+    if (const auto layer = layer_on(*region.matte, frame, plate)) {
+        const auto matte = read_layer(*layer, plate.size(), looks.painted ? *looks.painted : kNone);
         if (matte)
             if (const Recti box = matte_box(*matte); !box.empty()) return box;
     }

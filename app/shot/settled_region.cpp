@@ -5,6 +5,7 @@
 #include "app/exchange/crypto_files.h"
 #include "app/exchange/region_matte_sources.h"
 #include "app/shot/matte_channel.h"
+#include "app/shot/matte_movies.h"
 #include "app/shot/pass_choice.h"
 #include "app/shot/region_projection.h"
 #include "app/shot/trimmed_frames.h"
@@ -33,6 +34,8 @@ void choose_crypto_layers(Region& region, const Shot& shot) {
 Status settle_region(Region& region, Shot& shot) {
     const Plate& plate = shot.project.plate;
     WEFT_CHECK_OK(name_crypto_files(region, plate.path));
+    WEFT_TRY(movies, check_matte_movies(region, *shot.plate));
+    std::move(movies.begin(), movies.end(), std::back_inserter(shot.warnings));
     choose_crypto_layers(region, shot);
     WEFT_CHECK_OK(add_frozen_mattes(region));
     choose_matte_channels(region, shot.plate->frames());

@@ -16,6 +16,7 @@
 #include "engine/core/luma.h"
 #include "engine/core/setting.h"
 #include "engine/media/cryptomatte.h"
+#include "engine/media/matte_code.h"
 #include "engine/media/plate_decode.h"
 #include "engine/media/plates.h"
 #include "engine/media/raster.h"
@@ -23,11 +24,6 @@
 
 namespace weft {
 namespace {
-
-std::uint8_t quantise(float v) {
-    if (!(v > 0.0f)) return 0;  // NaN too
-    return v >= 1.0f ? std::uint8_t{255} : static_cast<std::uint8_t>(v * 255.0f + 0.5f);
-}
 
 // The matte's samples among a raster's channels. Luma reads three.
 struct Source {
@@ -82,7 +78,7 @@ void quantise_codes(const std::vector<std::uint8_t>& samples, std::size_t channe
                     std::uint8_t* out) {
     std::array<std::uint8_t, 256> coverage_of{};
     for (std::size_t code = 0; code < coverage_of.size(); ++code)
-        coverage_of[code] = quantise(unit(static_cast<std::uint8_t>(code)));
+        coverage_of[code] = matte_code(unit(static_cast<std::uint8_t>(code)));
     for (std::size_t at = channel; at < samples.size(); at += step)
         *out++ = coverage_of[samples[at]];
 }
@@ -101,8 +97,8 @@ Matte coverage(const Raster& raster, Source source) {
         [&](const auto& samples) {
             for (std::size_t i = 0, at = 0; at < samples.size(); ++i, at += step) {
                 const auto* p = samples.data() + at;
-                out[i] = quantise(source.luma ? luma_709(unit(p[0]), unit(p[1]), unit(p[2]))
-                                              : unit(p[channel]));
+                out[i] = matte_code(source.luma ? luma_709(unit(p[0]), unit(p[1]), unit(p[2]))
+                                                : unit(p[channel]));
             }
         },
         raster.samples);
@@ -148,12 +144,6 @@ Matte equal_to(const Raster& raster, int channel, int value) {
     return matte;
 }
 
-void invert(Matte& matte) {
-    std::uint8_t* const p = matte.data();
-    for (std::size_t i = 0; i < matte.size_bytes(); ++i)
-        p[i] = static_cast<std::uint8_t>(255 - p[i]);
-}
-
 Error no_channel(const std::string& path, const Raster& raster, const std::string& channel) {
     const std::string have = raster.colors() < 3 ? "grey only" : "R, G and B only";
     return unreadable(path, "it has no channel '" + channel + "'", "It has " + have + ".");
@@ -188,13 +178,12 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
     WEFT_CHECK_OK(check_picture_exists(path));
     if (has_movie_extension(path)) {
         return fail(ErrorCode::kUsage, path +
-                                           " is a movie, and a matte is a sequence of pictures. "
-                                           "Write its frames as pictures, such as matte.####.png, "
-                                           "and give those.");
+                                           " is a movie, and one picture is needed here. Write the "
+                                           "frame as a picture, such as matte.png, and give that.");
     }
     if (!select.crypto.empty()) {
         WEFT_TRY(objects, read_cryptomatte(path, select.crypto, expected));
-        if (select.invert) invert(objects);
+        if (select.invert) invert_matte(objects);
         return objects;
     }
     const bool by_color = is_color_name(select.channel);
@@ -227,7 +216,7 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
     } else {
         matte = coverage(raster, source);
     }
-    if (select.invert) invert(matte);
+    if (select.invert) invert_matte(matte);
     return matte;
 }
 

@@ -42,7 +42,7 @@ struct MatteSelect {
 /// Coverage 0–255, of any size if `expected` is empty (rounded; 16-bit and float files are
 /// quantised). Errors: MissingFrames if there is no such file; Unreadable if it is not an image,
 /// lacks the channel, or differs in size from `expected` (the message gives both sizes); Usage for
-/// `value` where the samples have fractions, and for a movie.
+/// `value` where the samples have fractions, and for a movie, which MatteFiles reads.
 [[nodiscard]] Expected<Matte> read_matte(const std::string& path, const MatteSelect& select,
                                          Size expected);
 

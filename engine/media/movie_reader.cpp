@@ -30,7 +30,8 @@ std::size_t bytes_of(const Raster& raster) {
 }
 
 // The frames of one movie by number. Going back means decoding again from the start; the frames
-// before the requested one are kept on the way, because stepping back usually continues.
+// before the requested one are kept on the way, because stepping back usually continues, and those
+// skipped by a short step forward, because several threads ask for them in any order.
 class MovieFrames {
   public:
     explicit MovieFrames(const std::string& path) : decoder_(path) {}
@@ -42,7 +43,8 @@ class MovieFrames {
         }
         const bool backwards = index < next_;
         if ((backwards || !open_) && !rewind()) return nullptr;
-        const int keep_from = backwards ? index - kept_frames_ + 1 : index;
+        const bool near = index - next_ < kept_frames_;
+        const int keep_from = backwards || near ? index - kept_frames_ + 1 : index;
         while (true) {
             const AVFrame* decoded = decoder_.next();
             if (!decoded) return nullptr;

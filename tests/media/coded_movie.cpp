@@ -48,6 +48,11 @@ void fill_bars(AVFrame& frame, const std::vector<Codes>& bars) {
 }  // namespace
 
 void write_bars(const std::string& path, const CodedMovie& movie, const std::vector<Codes>& bars) {
+    write_frames(path, movie, std::vector<std::vector<Codes>>(movie.stamps.size(), bars));
+}
+
+void write_frames(const std::string& path, const CodedMovie& movie,
+                  const std::vector<std::vector<Codes>>& frames) {
     AVFormatContext* file = nullptr;
     need(avformat_alloc_output_context2(&file, nullptr, nullptr, path.c_str()) >= 0, "container");
     AVCodecContext* codec = avcodec_alloc_context3(avcodec_find_encoder(AV_CODEC_ID_FFV1));
@@ -79,7 +84,6 @@ void write_bars(const std::string& path, const CodedMovie& movie, const std::vec
     frame->height = movie.size.height;
     frame->interlaced_frame = frame->top_field_first = movie.interlaced ? 1 : 0;
     need(av_frame_get_buffer(frame, 0) >= 0, "frame");
-    fill_bars(*frame, bars);
     AVPacket* packet = av_packet_alloc();
     const auto write_packets = [&] {
         while (avcodec_receive_packet(codec, packet) >= 0) {
@@ -88,8 +92,10 @@ void write_bars(const std::string& path, const CodedMovie& movie, const std::vec
             need(av_write_frame(file, packet) >= 0, "write");
         }
     };
-    for (const int stamp : movie.stamps) {
-        frame->pts = stamp;
+    for (std::size_t k = 0; k < movie.stamps.size(); ++k) {
+        need(av_frame_make_writable(frame) >= 0, "writable");
+        fill_bars(*frame, frames[k]);
+        frame->pts = movie.stamps[k];
         need(avcodec_send_frame(codec, frame) >= 0, "send");
         write_packets();
     }

@@ -30,6 +30,9 @@ using Codes = std::array<int, 4>;
 
 /// Frames of equal vertical bars, each filled with its codes; FFV1, which keeps them.
 void write_bars(const std::string& path, const CodedMovie& movie, const std::vector<Codes>& bars);
+/// The same with bars of its own for each frame, of which `movie` has as many stamps.
+void write_frames(const std::string& path, const CodedMovie& movie,
+                  const std::vector<std::vector<Codes>>& frames);
 
 struct MovieTags {
     std::string codec;

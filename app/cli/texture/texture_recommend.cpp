@@ -8,8 +8,7 @@
 #include "app/cli/texture/texture_sheet.h"
 #include "app/project/codec/project_file.h"
 #include "engine/media/frame_reader.h"
-#include "engine/media/image_files.h"
-#include "engine/media/sequence_pattern.h"
+#include "engine/media/matte_files.h"
 
 namespace weft {
 namespace {
@@ -30,10 +29,12 @@ Expected<ImageU8x3> shown_frame(const FrameReader& plate, int frame) {
 Expected<Scene> scene_of_files(const TextureRecommendOptions& o) {
     Scene scene;
     WEFT_TRY(plate, open_plate(o.plate, {}));
-    WEFT_TRY(pixels, shown_frame(*plate, o.frame >= 0 ? o.frame : plate->frames().front()));
+    const int frame = o.frame >= 0 ? o.frame : plate->frames().front();
+    WEFT_TRY(pixels, shown_frame(*plate, frame));
     scene.plate = std::move(pixels);
     for (const std::string& path : o.mattes) {
-        WEFT_TRY(matte, read_matte(path, {}, scene.plate.size()));
+        WEFT_TRY(files, MatteFiles::parse(path, plate->frames().front()));
+        WEFT_TRY(matte, files.read(frame, {}, scene.plate.size()));
         scene.mattes.push_back(std::move(matte));
         scene.names.push_back(path);
     }
@@ -55,20 +56,19 @@ Expected<int> frame_of(const Region& region, const FrameReader& plate) {
     return frames.front();
 }
 
-Expected<std::string> matte_file(const Region& region, int frame) {
+Expected<MatteFiles> matte_of(const Region& region, int frame, int first) {
     if (!region.matte->shape.empty())
         return fail(ErrorCode::kUsage, "Region '" + region.name +
                                            "' is drawn from a shape, which this command does not "
                                            "draw. Give its matte as a file with --matte.");
     if (region.matte->files.empty()) {
         const auto key = region.matte->keyframes.find(frame);
-        if (key != region.matte->keyframes.end()) return key->second.path;
+        if (key != region.matte->keyframes.end()) return MatteFiles::single(key->second.path);
         return fail(ErrorCode::kUsage, "Region '" + region.name +
                                            "' has no matte painted on frame " +
                                            std::to_string(frame) + ". Give another --frame.");
     }
-    WEFT_TRY(pattern, SequencePattern::parse(region.matte->files));
-    return pattern.path_for(frame);
+    return MatteFiles::parse(region.matte->files, first);
 }
 
 Expected<Scene> scene_of_project(const TextureRecommendOptions& o) {
@@ -97,8 +97,8 @@ Expected<Scene> scene_of_project(const TextureRecommendOptions& o) {
     scene.plate = std::move(pixels);
     for (const std::size_t i : chosen) {
         const Region& region = *project.regions[i];
-        WEFT_TRY(file, matte_file(region, frame));
-        WEFT_TRY(matte, read_matte(file, region.matte->select, scene.plate.size()));
+        WEFT_TRY(files, matte_of(region, frame, plate->frames().front()));
+        WEFT_TRY(matte, files.read(frame, region.matte->select, scene.plate.size()));
         scene.mattes.push_back(std::move(matte));
         scene.names.push_back(region.name);
     }
