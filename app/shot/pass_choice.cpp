@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "app/exchange/region_matte_sources.h"
 #include "app/shot/form_files.h"
 #include "engine/core/setting.h"
 #include "engine/core/text.h"
@@ -46,6 +47,7 @@ class Chooser {
     }
 
     Status choose() {
+        choose_ids();
         MotionSource& motion = region_.motion;
         if (motion.convention != MotionConvention::kFiles) {
             const MotionSelect select{motion.convention, motion.direction, motion.layer};
@@ -75,8 +77,26 @@ class Chooser {
         warn_of_codec(what, *path, found);
         if (!layer.empty()) return {};
         layer = found.layer.name;
-        if (!found.also_called.empty()) tell_choice(what, found, setting);
+        if (!found.also_called.empty()) tell_choice(what, files, found, setting);
         return {};
+    }
+
+    // One layer of ids is found by each file; of several it is named here.
+    void choose_ids() {
+        change_matte_sources(region_, [&](MatteSource& matte) {
+            MatteSelect& select = matte.select;
+            if (!select.value || !select.channel.empty() || !select.crypto.empty()) return;
+            std::optional<std::string> path;
+            if (!matte.files.empty())
+                path = first_file(matte.files, frames_);
+            else if (!matte.keyframes.empty())
+                path = matte.keyframes.begin()->second.path;
+            const auto found = path ? find_ids(*path, beside_) : std::nullopt;
+            if (!found || found->also_called.empty()) return;
+            const std::string& channel = found->channels.front();
+            select.channel = found->layer.prefixed ? channel : found->layer.name + "." + channel;
+            tell_choice("matte of ids", matte.files, *found, setting::kMatteChannel);
+        });
     }
 
     Status choose_form() {
@@ -151,20 +171,18 @@ class Chooser {
             by({{setting::kNormalSpace, "camera"}, {setting::kNormalSpace, "world"}}) + ".");
     }
 
-    void tell_choice(const std::string& what, const FoundPass& found, std::string_view setting) {
+    void tell_choice(const std::string& what, const std::string& files, const FoundPass& found,
+                     std::string_view setting) {
         std::string others;
         for (const std::string& name : found.also_called)
             others += (others.empty() ? "" : ", ") + name;
-        const std::string& layer = found.layer.name;
-        const std::string render = layer.substr(0, layer.rfind('.') + 1);
-        std::string why = "the first in the file";
-        for (const std::string& neighbour : beside_)
-            if (neighbour.substr(0, neighbour.rfind('.') + 1) == render)
-                why = "which belongs to " + neighbour;
-        auto& told = why.starts_with("the first") ? choice.warnings : choice.notes;
-        told.push_back("Region '" + region_.name + "': the " + what + " is the layer " + layer +
-                       ", " + why + ", not " + others + ". Name another if needed" +
-                       by({{setting}}) + ".");
+        // Without a layer the plate is of its file's first view, too.
+        const bool with_plate = found.told == FoundPass::Told::kByNeighbour ||
+                                (found.told == FoundPass::Told::kByView && files == plate_.path);
+        auto& told = with_plate ? choice.notes : choice.warnings;
+        told.push_back("Region '" + region_.name + "': the " + what + " is the layer " +
+                       found.layer.name + ", " + found.why + ", not " + others +
+                       ". Name another if needed" + by({{setting}}) + ".");
     }
 
     Region& region_;

@@ -89,7 +89,11 @@ std::optional<ChannelChoice> by_count(const PartNames& part, int number) {
 std::optional<ChannelChoice> named_in(const PartNames& part, int number,
                                       const RasterRequest& request) {
     if (!request.channel.empty()) {
-        const int c = find_channel(part, "", {request.channel});
+        int c = find_channel(part, "", {request.channel});
+        // In a file with a part for each pass the part's name is the layer.
+        const std::string own = part.name + ".";
+        if (c < 0 && !part.name.empty() && request.channel.starts_with(own))
+            c = find_channel(part, "", {request.channel.substr(own.size())});
         return c < 0 ? std::nullopt : std::optional(choice_of(number, {c}, -1));
     }
     const std::string prefix = request.layer + ".";

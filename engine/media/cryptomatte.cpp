@@ -10,6 +10,7 @@
 #include "engine/media/cryptomatte_selection.h"
 #include "engine/media/picture_file.h"
 #include "engine/media/raster_errors.h"
+#include "engine/media/stereo_views.h"
 
 namespace weft {
 namespace {
@@ -211,9 +212,6 @@ std::string cryptomatte_layer(const std::string& path, std::string_view names) {
 
 std::string cryptomatte_names_beside(const std::string& path, std::string_view names,
                                      std::string_view beside) {
-    const auto render_of = [](std::string_view layer) {
-        return layer.substr(0, layer.rfind('.') + 1);
-    };
     const auto rewritten = guarded(path, [&]() -> Expected<std::string> {
         WEFT_TRY(file, CryptoFile::open(path));
         std::vector<CryptoLayer> same;

@@ -115,15 +115,8 @@ bool has_whole_numbers(const Raster& raster, int channel) {
     return true;
 }
 
-// The channel of ids beside a renderer's picture.
 void choose_id_channel(const std::string& path, RasterRequest& request) {
-    const PassKind kIds{"id",
-                        {"IndexOB", "IndexMA", "object_id", "objectid", "id"},
-                        {{"X"}, {"V"}, {"Y"}, {"R"}},
-                        {}};
-    const auto layers = list_pass_layers(path);
-    if (!layers || layers->size() < 2) return;
-    const auto found = find_pass(*layers, kIds, {});
+    const auto found = find_ids(path);
     if (!found) return;
     request.channel = found->channels.front();
     request.part = found->layer.part;
@@ -172,6 +165,16 @@ std::string channel_of_mattes(const std::vector<std::string>& paths) {
         if (has_transparency(*raster)) return "A";
     }
     return looks > 0 ? "Y" : std::string();
+}
+
+std::optional<FoundPass> find_ids(const std::string& path, const std::vector<std::string>& beside) {
+    const PassKind kIds{"id",
+                        {"IndexOB", "IndexMA", "object_id", "objectid", "id"},
+                        {{"X"}, {"V"}, {"Y"}, {"R"}},
+                        {}};
+    const auto layers = list_pass_layers(path);
+    if (!layers || layers->size() < 2) return std::nullopt;
+    return find_pass(*layers, kIds, {}, beside);
 }
 
 Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, Size expected) {

@@ -39,6 +39,11 @@ struct MatteSelect {
 /// opaque there, and still read by its alpha.
 [[nodiscard]] std::string channel_of_mattes(const std::vector<std::string>& paths);
 
+/// Where the ids are in a renderer's file, beside its picture; of several layers that beside one of
+/// `beside`: find_pass(). Nothing if there are none, or the file has no other layers.
+[[nodiscard]] std::optional<FoundPass> find_ids(const std::string& path,
+                                                const std::vector<std::string>& beside = {});
+
 /// Coverage 0–255, of any size if `expected` is empty (rounded; 16-bit and float files are
 /// quantised). Errors: MissingFrames if there is no such file; Unreadable if it is not an image,
 /// lacks the channel, or differs in size from `expected` (the message gives both sizes); Usage for

@@ -11,14 +11,10 @@
 #include "engine/media/picture_file.h"
 #include "engine/media/raster.h"
 #include "engine/media/raster_errors.h"
+#include "engine/media/stereo_views.h"
 
 namespace weft {
 namespace {
-
-// "shot." of "shot.Vector": which render of a file a layer belongs to.
-std::string_view render_of(std::string_view layer) {
-    return layer.substr(0, layer.rfind('.') + 1);
-}
 
 PassLayer& layer_for(std::vector<PassLayer>& layers, int part, const std::string& part_name,
                      const std::string& name, bool prefixed) {
@@ -26,13 +22,14 @@ PassLayer& layer_for(std::vector<PassLayer>& layers, int part, const std::string
         return layer.part == part && layer.name == name && layer.prefixed == prefixed;
     });
     if (known != layers.end()) return *known;
-    layers.push_back({part, name, part_name, prefixed, {}, {}});
+    layers.push_back({part, name, part_name, prefixed, {}, {}, {}, {}, true});
     return layers.back();
 }
 
 void add_part(const OIIO::ImageSpec& spec, int part, std::vector<PassLayer>& layers) {
     const std::string part_name(spec.get_string_attribute("oiio:subimagename"));
     const std::string codec(spec.get_string_attribute("compression"));
+    const std::string view(spec.get_string_attribute("view"));
     for (const std::string& channel : spec.channelnames) {
         const std::size_t dot = channel.rfind('.');
         const bool prefixed = dot != std::string::npos;
@@ -40,17 +37,68 @@ void add_part(const OIIO::ImageSpec& spec, int part, std::vector<PassLayer>& lay
         PassLayer& layer = layer_for(layers, part, part_name, name, prefixed);
         layer.channels.push_back(prefixed ? channel.substr(dot + 1) : channel);
         layer.codec = codec;
+        layer.view = view;
     }
 }
 
-// The candidate of the render that a layer of `beside` belongs to; else the first.
-std::size_t chosen_among(const std::vector<FoundPass>& candidates,
-                         const std::vector<std::string>& beside) {
-    for (const std::string& neighbour : beside) {
-        for (std::size_t k = 0; k < candidates.size(); ++k)
-            if (render_of(candidates[k].layer.name) == render_of(neighbour)) return k;
+// Tells each layer's view. `views`: those that the file declares, the default one first.
+void name_views(const std::vector<std::string>& views, std::vector<PassLayer>& layers) {
+    const std::string first = views.empty() ? "left" : views.front();
+    for (PassLayer& layer : layers) {
+        ViewName name = split_view(layer.name, views);
+        layer.pass = std::move(name.pass);
+        if (!name.view.empty()) layer.view = std::move(name.view);
+        layer.first_view = layer.view.empty() || same_ignoring_case(layer.view, first);
     }
-    return 0;
+}
+
+using Told = FoundPass::Told;
+
+std::vector<std::string> views_of(const std::vector<FoundPass>& candidates) {
+    std::vector<std::string> views;
+    for (const FoundPass& candidate : candidates)
+        if (!candidate.layer.view.empty()) views.push_back(candidate.layer.view);
+    return views;
+}
+
+// How closely a pass and a layer of the plate belong together: render and view, the render, the
+// view, or not.
+int kinship(const PassLayer& pass, const ViewName& neighbour) {
+    const bool render = render_of(pass.pass) == render_of(neighbour.pass);
+    const bool named_view =
+        !neighbour.view.empty() && same_ignoring_case(pass.view, neighbour.view);
+    const bool view = named_view || (neighbour.view.empty() && pass.first_view);
+    return render && view ? 3 : render ? 2 : named_view ? 1 : 0;
+}
+
+// The candidate that belongs to a layer of `beside`, else the first of the first view. Says why.
+FoundPass& chosen_among(std::vector<FoundPass>& candidates,
+                        const std::vector<std::string>& beside) {
+    const std::vector<std::string> views = views_of(candidates);
+    int closest = 0;
+    FoundPass* nearest = nullptr;
+    for (const std::string& neighbour : beside) {
+        const ViewName name = split_view(neighbour, views);
+        for (FoundPass& candidate : candidates) {
+            const int close = kinship(candidate.layer, name);
+            if (close <= closest) continue;
+            closest = close;
+            nearest = &candidate;
+            candidate.why = "which belongs to " + neighbour;
+            candidate.told = Told::kByNeighbour;
+        }
+    }
+    if (nearest) return *nearest;
+    const auto first = std::find_if(candidates.begin(), candidates.end(),
+                                    [](const FoundPass& found) { return found.layer.first_view; });
+    FoundPass& chosen = first == candidates.end() ? candidates.front() : *first;
+    const bool by_view = std::all_of(candidates.begin(), candidates.end(), [&](const auto& other) {
+        return &other == &chosen || (other.layer.pass == chosen.layer.pass &&
+                                     other.layer.first_view != chosen.layer.first_view);
+    });
+    chosen.why = by_view ? "of the file's first view" : "the first in the file";
+    chosen.told = by_view ? Told::kByView : Told::kByOrder;
+    return chosen;
 }
 
 }  // namespace
@@ -73,6 +121,7 @@ Expected<std::vector<PassLayer>> list_pass_layers(const std::string& path) {
         for (int part = 0; input->seek_subimage(part, 0); ++part)
             if (!input->spec().deep) add_part(input->spec(), part, layers);
         static_cast<void>(input->geterror());
+        name_views(list_views(*input), layers);
         return layers;
     });
 }
@@ -91,7 +140,7 @@ std::string list_of(const std::vector<PassLayer>& layers) {
 }
 
 bool is_called(const PassLayer& layer, std::string_view wanted) {
-    const std::string_view name = layer.name;
+    const std::string_view name = layer.pass;
     if (name.size() < wanted.size()) return false;
     const std::size_t before = name.size() - wanted.size();
     return same_ignoring_case(name.substr(before), wanted) &&
@@ -138,13 +187,13 @@ std::optional<FoundPass> find_pass(const std::vector<PassLayer>& layers, const P
         for (const bool letter_by_letter : {true, false}) {
             for (const PassLayer& layer : layers) {
                 if (!is_called(layer, wanted)) continue;
-                if (letter_by_letter && !layer.name.ends_with(wanted)) continue;
+                if (letter_by_letter && !layer.pass.ends_with(wanted)) continue;
                 if (auto found = pass_in(layer, kind)) candidates.push_back(std::move(*found));
             }
             if (!candidates.empty()) break;
         }
         if (candidates.empty()) continue;
-        FoundPass& chosen = candidates[chosen_among(candidates, beside)];
+        FoundPass& chosen = chosen_among(candidates, beside);
         for (const FoundPass& other : candidates)
             if (&other != &chosen) chosen.also_called.push_back(other.layer.name);
         return std::move(chosen);

@@ -21,6 +21,9 @@ struct PassLayer {
     bool prefixed = false;              ///< The channels' names begin with `name` and a dot.
     std::vector<std::string> channels;  ///< What follows the last dot: "X".
     std::string codec;                  ///< "zip", "dwaa:45": as OpenImageIO names it.
+    std::string pass;        ///< `name` without a view: "shot.Depth" of "shot.Depth.left".
+    std::string view;        ///< "left"; empty if neither the name nor the part tells one.
+    bool first_view = true;  ///< Of the stereo file's first view, as layers without one are.
 
     /// The name of the channel in its part; empty if the layer has none that ends so.
     [[nodiscard]] std::string channel(std::string_view last) const;
@@ -46,15 +49,17 @@ struct FoundPass {
     PassLayer layer;
     std::vector<std::string> channels;     ///< Full names, in the kind's order.
     std::vector<std::string> also_called;  ///< Other layers that might be meant.
+    std::string why = {};  ///< Why it is this one of them: "which belongs to fg.Combined".
+    enum class Told { kByNeighbour, kByView, kByOrder } told = Told::kByOrder;
 };
 
 /// The pass in this layer, whatever its name, if it has the channels.
 [[nodiscard]] std::optional<FoundPass> pass_in(const PassLayer& layer, const PassKind& kind);
 
 /// The pass of this kind, in the layer `named`, else in one of the kind's names, also behind
-/// another name ("shot.Vector"). Of several, that which stands beside one of the layers `beside`
-/// ("shot.Combined"), as the view layers of one render do; else the first. Nothing if there is
-/// none.
+/// another name ("shot.Vector") and of any view. Of several, that which stands beside one of the
+/// layers `beside` ("shot.Combined.left"), as the view layers and the views of one render do; else
+/// the first, of the file's first view. Nothing if there is none.
 [[nodiscard]] std::optional<FoundPass> find_pass(const std::vector<PassLayer>& layers,
                                                  const PassKind& kind, const std::string& named,
                                                  const std::vector<std::string>& beside = {});
@@ -68,7 +73,7 @@ struct FoundPass {
 [[nodiscard]] const PassLayer* layer_named(const std::vector<PassLayer>& layers,
                                            std::string_view name);
 
-/// Is the layer's last name `wanted`, small and capital letters alike?
+/// Is the layer's last name, but for a view, `wanted`, small and capital letters alike?
 [[nodiscard]] bool is_called(const PassLayer& layer, std::string_view wanted);
 
 /// The samples of the pass' channels, each row by row at the display window. Errors: those of

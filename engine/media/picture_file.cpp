@@ -89,4 +89,25 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_picture(const std::string& path
     return input;
 }
 
+std::vector<std::string> list_views(OIIO::ImageInput& input) {
+    std::vector<std::string> views;
+    if (std::string_view(input.format_name()) != "openexr") return views;
+    for (int part = 0; input.seek_subimage(part, 0); ++part) {
+        const OIIO::ImageSpec& spec = input.spec();
+        std::vector<std::string> here{std::string(spec.get_string_attribute("view"))};
+        if (const OIIO::ParamValue* all = spec.find_attribute("multiView")) {
+            here.clear();
+            const auto count = static_cast<int>(all->type().numelements());
+            for (int k = 0; k < count; ++k)
+                here.push_back(all->get_string_indexed(k));
+        }
+        for (std::string& view : here) {
+            if (!view.empty() && std::find(views.begin(), views.end(), view) == views.end())
+                views.push_back(std::move(view));
+        }
+    }
+    static_cast<void>(input.geterror());
+    return views;
+}
+
 }  // namespace weft

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/core/error.h"
 
@@ -20,5 +21,9 @@ namespace weft {
 /// check_picture_file(); Unreadable if its kind is unknown or it is damaged.
 [[nodiscard]] Expected<std::unique_ptr<OIIO::ImageInput>> open_picture(
     const std::string& path, const OIIO::ImageSpec& config = {});
+
+/// The views of an EXR part with several, or of several parts with one each, the default one first.
+/// None for other files. Moves between parts.
+[[nodiscard]] std::vector<std::string> list_views(OIIO::ImageInput& input);
 
 }  // namespace weft

@@ -308,33 +308,11 @@ Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request
     return raster;
 }
 
-// The views of a part with several, or of several parts with one each.
-std::vector<std::string> views_of(ImageInput& input) {
-    std::vector<std::string> views;
-    if (!is_exr(input)) return views;
-    for (int part = 0; input.seek_subimage(part, 0); ++part) {
-        const ImageSpec& spec = input.spec();
-        std::vector<std::string> here{std::string(spec.get_string_attribute("view"))};
-        if (const OIIO::ParamValue* all = spec.find_attribute("multiView")) {
-            here.clear();
-            const auto count = static_cast<int>(all->type().numelements());
-            for (int k = 0; k < count; ++k)
-                here.push_back(all->get_string_indexed(k));
-        }
-        for (std::string& view : here) {
-            if (!view.empty() && std::find(views.begin(), views.end(), view) == views.end())
-                views.push_back(std::move(view));
-        }
-    }
-    static_cast<void>(input.geterror());
-    return views;
-}
-
 Expected<RasterInfo> probe_oiio(const std::string& path, const RasterRequest& request) {
     WEFT_TRY(input, open_input(path));
     WEFT_TRY(pick, find_pick(*input, path, request));
     WEFT_TRY(info, info_of(*input, path, pick));
-    info.views = views_of(*input);
+    info.views = list_views(*input);
     return info;
 }
 

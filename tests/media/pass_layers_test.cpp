@@ -32,13 +32,20 @@ struct Part {
 class PassLayers : public MediaTest {
   protected:
     void put(const std::string& name, const std::vector<Part>& parts,
-             const std::string& codec = "zip") {
+             const std::string& codec = "zip", const std::vector<std::string>& views = {}) {
         std::vector<OIIO::ImageSpec> specs;
         for (const Part& part : parts) {
             OIIO::ImageSpec spec(kSize.width, kSize.height, static_cast<int>(part.channels.size()),
                                  OIIO::TypeFloat);
             spec.channelnames = part.channels;
             spec.attribute("compression", codec);
+            if (!views.empty()) {
+                std::vector<OIIO::ustring> names(views.begin(), views.end());
+                spec.attribute(
+                    "multiView",
+                    OIIO::TypeDesc(OIIO::TypeDesc::STRING, static_cast<int>(names.size())),
+                    names.data());
+            }
             if (!part.name.empty()) spec.attribute("oiio:subimagename", part.name);
             specs.push_back(spec);
         }
@@ -150,6 +157,66 @@ TEST_F(PassLayers, OfSeveralRendersThatOfThePlateIsMeant) {
     EXPECT_THAT(found->also_called, ElementsAre("bg.Vector"));
     EXPECT_THAT(motion("two.exr", {kBlender, kBackward, found->layer.name}), ElementsAre(-3, 1, 1));
     EXPECT_EQ(locate_motion(in("two.exr"), {kBlender, kBackward}).value().layer.name, "bg.Vector");
+}
+
+class StereoPasses : public PassLayers {
+  protected:
+    // The depth pass beside a layer of the plate, and why.
+    [[nodiscard]] std::string depth(const std::string& beside) const {
+        const std::vector<std::string> layers =
+            beside.empty() ? std::vector<std::string>() : std::vector<std::string>{beside};
+        const auto found = locate_depth(in("stereo.exr"), "", layers);
+        EXPECT_TRUE(found) << (found ? "" : found.error().text());
+        return found ? found->layer.name + ", " + found->why : "";
+    }
+};
+
+// OpenEXR's convention: the view is the last but the channel.
+TEST_F(StereoPasses, TheViewOfThePlateIsMeant) {
+    put("stereo.exr", {{"",
+                        {"RenderLayer.Combined.left.R", "RenderLayer.Combined.right.R",
+                         "RenderLayer.Depth.left.Z", "RenderLayer.Depth.right.Z"},
+                        {0, 0, 5, 6}}});
+    EXPECT_EQ(depth("RenderLayer.Combined.right"),
+              "RenderLayer.Depth.right, which belongs to RenderLayer.Combined.right");
+    EXPECT_EQ(depth("RenderLayer.Combined.left"),
+              "RenderLayer.Depth.left, which belongs to RenderLayer.Combined.left");
+    EXPECT_EQ(depth("RIGHT"), "RenderLayer.Depth.right, which belongs to RIGHT")
+        << "a plate of its own file";
+    EXPECT_EQ(depth(""), "RenderLayer.Depth.left, of the file's first view");
+    EXPECT_EQ(read_depth(in("stereo.exr"), "RenderLayer.Depth.right", kSize).value().at(1, 1), 6);
+    EXPECT_EQ(read_depth(in("stereo.exr"), "", kSize).value().at(1, 1), 5);
+}
+
+TEST_F(StereoPasses, TheViewMayComeFirst) {
+    put("stereo.exr", {{"",
+                        {"left.R", "left.Depth.Z", "left.Vector.X", "left.Vector.Y", "right.R",
+                         "right.Depth.Z", "right.Vector.X", "right.Vector.Y"},
+                        {0, 5, -1, 0, 0, 6, -3, -1}}});
+    EXPECT_EQ(depth("right"), "right.Depth, which belongs to right");
+    EXPECT_EQ(depth("left"), "left.Depth, which belongs to left");
+    EXPECT_EQ(locate_motion(in("stereo.exr"), {kBlender, kBackward}, {"right"}).value().layer.name,
+              "right.Vector");
+}
+
+// The first view's layers have no name of it where the header names the views.
+TEST_F(StereoPasses, LayersWithoutAViewAreOfTheFirst) {
+    put("stereo.exr", {{"", {"Depth.Z", "Depth.wit.Z", "R", "wit.R"}, {5, 6, 0, 0}}}, "zip",
+        {"main", "wit"});
+    EXPECT_EQ(depth("wit"), "Depth.wit, which belongs to wit");
+    EXPECT_EQ(depth("rgba"), "Depth, which belongs to rgba");
+    EXPECT_EQ(depth(""), "Depth, of the file's first view");
+}
+
+TEST_F(PassLayers, IdsMayBeNamedByTheirPart) {
+    put("ids.exr", {{"bg.IndexOB", {"X"}, {3}}, {"fg.IndexOB", {"X"}, {4}}, {"rgba", {"R"}, {0}}});
+    EXPECT_EQ(find_ids(in("ids.exr"), {"fg.Combined"}).value().layer.name, "fg.IndexOB");
+    const auto inside = [&](const std::string& channel, int value) {
+        return read_matte(in("ids.exr"), {value, channel, false}, kSize).value().at(1, 1) == 255;
+    };
+    EXPECT_TRUE(inside("fg.IndexOB.X", 4));
+    EXPECT_TRUE(inside("bg.IndexOB.X", 3));
+    EXPECT_TRUE(inside("", 3)) << "the first";
 }
 
 TEST_F(PassLayers, WhatIsBesideARenderRegionIsNeitherMotionNorDistance) {

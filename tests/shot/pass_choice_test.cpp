@@ -62,6 +62,44 @@ TEST_F(PassChoosing, TheRenderOfThePlateIsTaken) {
     EXPECT_EQ(region_.motion.layer, "bg.Vector");
 }
 
+TEST_F(PassChoosing, IdsAreThoseOfTheRenderOfThePlate) {
+    put("0001.exr", {"bg.Combined.R", "bg.Combined.G", "bg.Combined.B", "bg.IndexOB.X",
+                     "fg.Combined.R", "fg.Combined.G", "fg.Combined.B", "fg.IndexOB.X"});
+    MatteSource ids;
+    ids.files = plate_.path = in("####.exr");
+    ids.select.value = 3;
+    region_.matte = ids;
+    plate_.layer = "fg.Combined";
+    EXPECT_THAT(choose().notes, ElementsAre(HasSubstr("belongs to fg.Combined, not bg.IndexOB")));
+    EXPECT_EQ(region_.matte->select.channel, "fg.IndexOB.X");
+    EXPECT_THAT(choose().notes, IsEmpty()) << "it is chosen";
+    region_.matte = ids;
+    plate_.layer.clear();
+    EXPECT_THAT(choose().warnings, ElementsAre(HasSubstr("matte.channel")));
+    EXPECT_EQ(region_.matte->select.channel, "bg.IndexOB.X");
+}
+
+TEST_F(PassChoosing, TheViewOfThePlateIsTaken) {
+    put("0001.exr", {"left.R", "left.G", "left.B", "left.Depth.Z", "right.R", "right.G", "right.B",
+                     "right.Depth.Z"});
+    plate_.path = region_.finish.depth = in("####.exr");
+    region_.finish.focus = 1;
+    plate_.layer = "right";
+    EXPECT_THAT(choose().notes, ElementsAre(HasSubstr("belongs to right, not left.Depth")));
+    EXPECT_EQ(region_.finish.depth_layer, "right.Depth");
+    // Both are of the first view.
+    region_.finish.depth_layer.clear();
+    plate_.layer.clear();
+    const PassChoice both = choose();
+    EXPECT_EQ(region_.finish.depth_layer, "left.Depth");
+    EXPECT_THAT(both.notes, ElementsAre(HasSubstr("of the file's first view, not right.Depth")));
+    EXPECT_THAT(both.warnings, IsEmpty());
+    // Of a plate elsewhere it is not known.
+    region_.finish.depth_layer.clear();
+    plate_.path = in("plate.png");
+    EXPECT_THAT(choose().warnings, ElementsAre(HasSubstr("first view")));
+}
+
 TEST_F(PassChoosing, ThePlateIsNotItsOwnAlbedo) {
     put("0001.exr", {"R", "G", "B"});
     plate_.path = region_.light.albedo = in("####.exr");
