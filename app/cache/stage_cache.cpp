@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/cache/blob_file.h"
+#include "app/shot/color_contents.h"
 #include "engine/core/byte_stream.h"
 #include "engine/media/atomic_file.h"
 
@@ -72,6 +73,7 @@ void add_plate_ids(Hasher& hasher, const Shot& shot) {
         const Hash128 value = id ? *id : Hash128{};
         hasher.value(frame).value(value.high).value(value.low);
     }
+    if (const auto color = color_contents(shot)) hasher.value(color->high).value(color->low);
 }
 
 std::shared_ptr<StageStore> open_stage_cache(const Shot& shot, const std::string& root) {

@@ -9,12 +9,12 @@
 namespace weft {
 
 /// Caches planes and motion below `root` (planes/HASH, motion/HASH/FRAME-FRAME). The hash of motion
-/// covers the ids of the plate's files, its colour space and the quality.
+/// covers what add_plate_ids() adds, the plate's colour space and the quality.
 [[nodiscard]] std::shared_ptr<StageStore> open_stage_cache(const Shot& shot,
                                                            const std::string& root);
 
 /// Adds the id of each frame's file of the shot's plate (Fingerprints::id()). A file that cannot be
-/// read has a value of its own; the code that needs it reports the error.
+/// read has a value of its own; the code that needs it reports the error. Also color_contents().
 void add_plate_ids(Hasher& hasher, const Shot& shot);
 
 }  // namespace weft

@@ -1,11 +1,11 @@
 #include "app/render/input_hashes.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
 
+#include "app/shot/color_contents.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/plates.h"
 #include "engine/media/sequence_pattern.h"
@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, kInputKinds> kNames{"plate",  "mattes", "texture",
                                                       "motion", "passes", "color"};
-constexpr std::array<const char*, kInputKinds> kWords{"the plate",   "the mattes",
-                                                      "the texture", "the motion or track",
-                                                      "the passes",  "the OpenColorIO config"};
+constexpr std::array<const char*, kInputKinds> kWords{
+    "the plate",           "the mattes", "the texture",
+    "the motion or track", "the passes", "the OpenColorIO config or its tables"};
 
 std::size_t index_of(InputKind kind) {
     return static_cast<std::size_t>(kind);
@@ -92,10 +92,6 @@ std::vector<std::string> manifests_of(const Region& region, int first) {
 
 FrameSpan united(const FrameSpan& a, const FrameSpan& b) {
     return {std::min(a.first, b.first), std::max(a.last, b.last)};
-}
-
-bool needs_config(const ColorSpace& space) {
-    return space.name != "srgb" && space.name != "linear" && space.name != "cineon";
 }
 
 }  // namespace
@@ -230,15 +226,10 @@ void InputHashes::add_texture_and_color() {
             textures.text(further.id);
     }
     whole_[index_of(InputKind::kTexture)] = textures.finish();
-    const ShotSpaces& spaces = shot_->spaces;
-    const bool needed = needs_config(spaces.plate) || needs_config(spaces.working) ||
-                        needs_config(spaces.out) ||
-                        std::any_of(spaces.textures.begin(), spaces.textures.end(), needs_config);
-    const char* const config =
-        std::getenv("OCIO");  // NOLINT(concurrency-mt-unsafe): nobody sets it
-    if (!needed || !config) return;
+    const auto color = color_contents(*shot_);
+    if (!color) return;
     given_[index_of(InputKind::kColor)] = true;
-    whole_[index_of(InputKind::kColor)] = contents_of(config);
+    whole_[index_of(InputKind::kColor)] = *color;
 }
 
 InputHashes::Hashes InputHashes::hashes(int frame) const {

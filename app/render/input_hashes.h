@@ -29,8 +29,8 @@ class InputHashes {
     InputHashes(std::shared_ptr<const Shot> shot, const std::vector<int>& frames);
 
     /// "plate:0123456789abcdef,mattes:…": a hash of 16 hexadecimal digits for each kind of input
-    /// that there is: plate, mattes, texture, motion, passes, color (the OpenColorIO config). The
-    /// same on every machine, and for every part of the shot that is rendered.
+    /// that there is: plate, mattes, texture, motion, passes, color (the OpenColorIO config and its
+    /// tables). The same on every machine, and for every part of the shot that is rendered.
     [[nodiscard]] std::string text(int frame) const;
     /// The same of several frames together.
     [[nodiscard]] std::string text(const std::vector<int>& frames) const;

@@ -1,10 +1,12 @@
 #include "engine/color/color_space.h"
 
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/color/cineon_curve.h"
+#include "engine/color/color_files.h"
 #include "engine/color/ocio_bridge.h"
 #include "engine/color/srgb_curve.h"
 #include "engine/core/parallel.h"
@@ -131,6 +133,22 @@ Expected<std::shared_ptr<const ColorTransform>> make_color_transform(const Color
         }
     }
     return through_config(*config, from, to);
+}
+
+std::vector<std::string> color_files(const std::vector<ColorSpace>& spaces) {
+    std::set<std::string> names;
+    for (const ColorSpace& space : spaces)
+        if (!is_built_in(space.name)) names.insert(space.name);
+    if (names.empty()) return {};
+    const auto config = load_ocio_config();
+    if (!config || !*config) return {};
+    if (const auto meeting = (*config)->rec709()) names.insert(meeting->space);
+    std::set<std::string> files{(*config)->path()};
+    for (const std::string& from : names) {
+        for (const std::string& to : names)
+            if (from != to) files.merge((*config)->files_between(from, to));
+    }
+    return {files.begin(), files.end()};
 }
 
 Expected<std::vector<ScreenName>> list_screens() {

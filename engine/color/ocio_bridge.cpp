@@ -160,7 +160,8 @@ ScreenShader shader_of(const ocio::ConstProcessorRcPtr& processor, bool encoded)
 
 class Config final : public OcioConfig {
   public:
-    explicit Config(ocio::ConstConfigRcPtr config) : config_(std::move(config)) {}
+    Config(std::string path, ocio::ConstConfigRcPtr config)
+        : path_(std::move(path)), config_(std::move(config)) {}
 
     bool knows(const std::string& name) const override {
         return config_->getColorSpace(name.c_str()) != nullptr;
@@ -203,6 +204,22 @@ class Config final : public OcioConfig {
             return fail(ErrorCode::kUsage, "OpenColorIO cannot convert '" + from + "' to '" + to +
                                                "': " + e.what() + " Choose other spaces.");
         }
+    }
+
+    std::string path() const override { return path_; }
+
+    std::set<std::string> files_between(const std::string& from,
+                                        const std::string& to) const override {
+        std::set<std::string> files;
+        try {
+            const auto read =
+                config_->getProcessor(from.c_str(), to.c_str())->getProcessorMetadata();
+            for (int k = 0; k < read->getNumFiles(); ++k)
+                files.insert(read->getFile(k));
+        } catch (const ocio::Exception&) {
+            // Whoever needs the conversion reports it.
+        }
+        return files;
     }
 
     std::vector<ScreenName> screens() const override {
@@ -250,6 +267,7 @@ class Config final : public OcioConfig {
     }
 
   private:
+    std::string path_;
     ocio::ConstConfigRcPtr config_;
 };
 
@@ -270,7 +288,7 @@ Expected<std::shared_ptr<const OcioConfig>> load_ocio_config() {
     }
     try {
         ocio::SetLoggingLevel(ocio::LOGGING_LEVEL_NONE);
-        loaded = std::make_shared<Config>(ocio::Config::CreateFromFile(variable));
+        loaded = std::make_shared<Config>(variable, ocio::Config::CreateFromFile(variable));
         loaded_path = variable;
         return loaded;
     } catch (const ocio::Exception& e) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ class OcioConfig {
     [[nodiscard]] virtual std::optional<Meeting> rec709() const = 0;
     [[nodiscard]] virtual Expected<std::shared_ptr<const ColorTransform>> transform(
         const std::string& from, const std::string& to) const = 0;
+    /// Its file, or "ocio://…" for one that OpenColorIO has built in.
+    [[nodiscard]] virtual std::string path() const = 0;
+    /// The look-up tables of transform(); none if there is no such conversion.
+    [[nodiscard]] virtual std::set<std::string> files_between(const std::string& from,
+                                                              const std::string& to) const = 0;
     /// As list_screens() and list_color_spaces().
     [[nodiscard]] virtual std::vector<ScreenName> screens() const = 0;
     [[nodiscard]] virtual std::vector<std::string> spaces() const = 0;

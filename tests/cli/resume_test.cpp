@@ -119,6 +119,44 @@ TEST_F(Resume, VerifyProvesARenderAndFindsWhatChanged) {
 }
 
 // Like a new delivery of the plate during a run.
+// A graded plate is half as bright.
+TEST_F(Resume, ALookUpTableOfTheColourConfigIsAnInput) {
+    make_shot(2);
+    const auto put_table = [&](const char* white) {
+        put("graded.spi1d",
+            "Version 1\nFrom 0 1\nLength 2\nComponents 1\n{\n0\n" + std::string(white) + "\n}\n");
+    };
+    put_table(".5");
+    put("config.ocio", R"(ocio_profile_version: 2
+strictparsing: true
+roles: {default: raw, scene_linear: lin_rec709_srgb}
+file_rules:
+  - !<Rule> {name: Default, colorspace: default}
+displays:
+  screen:
+    - !<View> {name: Raw, colorspace: raw}
+colorspaces:
+  - !<ColorSpace> {name: raw, isdata: true}
+  - !<ColorSpace> {name: lin_rec709_srgb}
+  - !<ColorSpace>
+    name: graded
+    to_scene_reference: !<FileTransform> {src: graded.spi1d, interpolation: linear}
+)");
+    options_.environment["OCIO"] = in("config.ocio");
+    const Words words{"--plate-space", "graded", "--resume", "--json"};
+    const auto skipped = [&](const Outcome& outcome) {
+        expect_success(outcome);
+        return Json::parse(outcome.out)["frames"][1].value("skipped", false);
+    };
+    EXPECT_FALSE(skipped(run_replace(words)));
+    EXPECT_TRUE(skipped(run_replace(words)));
+    put_table(".7");
+    const Outcome again = run_replace(words);
+    EXPECT_FALSE(skipped(again));
+    EXPECT_THAT(again.err, HasSubstr("OpenColorIO config or its tables"));
+    EXPECT_TRUE(skipped(run_replace(words)));
+}
+
 TEST_F(Resume, AnInputThatIsReplacedDuringTheRunIsAnError) {
     make_shot(12);
     put_picture("new.png", pattern_picture({160, 120}, 9));

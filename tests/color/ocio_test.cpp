@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "engine/color/color_files.h"
 #include "engine/color/color_space.h"
 #include "engine/color/screen_view.h"
 
@@ -208,6 +209,27 @@ TEST_F(Ocio, AViewThatCannotBeSaysWhy) {
 TEST_F(Ocio, AViewWithoutAMeetingPlaceSaysSo) {
     use("doubled", kOthers);
     EXPECT_THAT(make_screen_view({"wall", "Bright"}).error().message, HasSubstr("Rec.709"));
+}
+
+TEST_F(Ocio, TheTablesOfAConversionAreItsFiles) {
+    use("lin_rec709_srgb", std::string(kLinear) + kOthers + R"(  - !<ColorSpace>
+    name: graded
+    to_scene_reference: !<FileTransform> {src: graded.spi1d, interpolation: linear}
+  - !<ColorSpace>
+    name: unused
+    to_scene_reference: !<FileTransform> {src: unused.spi1d, interpolation: linear}
+)");
+    const auto luts = folder_ / "luts";
+    std::filesystem::create_directory(luts);
+    for (const char* name : {"graded.spi1d", "unused.spi1d"}) {
+        std::ofstream(luts / name) << "Version 1\nFrom 0 1\nLength 2\nComponents 1\n{\n0\n.5\n}\n";
+    }
+    expect_near(convert("graded", "linear", {0.5f, 1.0f, 0.2f}), {0.25f, 0.5f, 0.1f});
+    const std::string config = (folder_ / "config.ocio").string();
+    EXPECT_THAT(color_files({{"srgb"}, {"graded"}}),
+                ElementsAre(config, (luts / "graded.spi1d").string()));
+    EXPECT_THAT(color_files({{"doubled"}}), ElementsAre(config));
+    EXPECT_TRUE(color_files({{"srgb"}, {"linear"}, {"cineon"}}).empty());
 }
 
 TEST_F(Ocio, BrokenConfigIsUnreadable) {
