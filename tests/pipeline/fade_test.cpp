@@ -88,6 +88,15 @@ TEST(Fade, TheLightIsRelativeToAFrameThatShowsTheSurface) {
         EXPECT_NEAR(seen[k] / seen[3], gains[k], 0.05 * gains[k] + 1e-3) << k;
 }
 
+// As in a compositor, what is not relit stays as it is.
+TEST(Fade, ATextureWithoutLightIsLeftAsItIs) {
+    RegionPlan region = plate_lit();
+    region.light_source = LightSource::kNone;
+    const std::vector<double> seen = levels(faded({1, 0.5f, 0.05f, 0}), region, 4);
+    for (const double level : seen)
+        EXPECT_NEAR(level, srgb_to_linear(0.5f), 0.005);
+}
+
 // White over the plate lies over the texture, too.
 TEST(Fade, TheTextureGoesToWhiteWithThePlate) {
     MemoryShot shot = make_wall(false, false);
