@@ -9,6 +9,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/mask/background_motion.h"
+#include "engine/mask/motion_support.h"
 #include "engine/mask/plane_motion.h"
 #include "engine/mask/signed_distance.h"
 
@@ -23,6 +24,7 @@ constexpr float kInvalidWeight = 0.3f;  // of motion that does not lead there an
 constexpr float kFinest_px = 0.25f;     // departures below it are noise
 constexpr float kShareMemory = 0.5f;    // of the shares, from frame to frame
 constexpr float kUnseenShare = 0.005f;
+constexpr float kTooFew = 0.1f;  // of the most samples inside: the rest of it is at an edge
 // The total variation between inside and outside from which on motion tells them apart.
 constexpr float kAlike = 0.45f, kApart = 0.75f;
 constexpr float kMostNow = 3;    // log odds from one frame
@@ -61,13 +63,17 @@ PlaneMotion background_plane(ViewF1 prev_phi, const FlowField& flow, float unit_
     return {std::move(samples), prev_phi.size()};
 }
 
+template <std::size_t N>
+float sum_of(const std::array<float, N>& shares) {
+    return std::accumulate(shares.begin(), shares.end(), 0.0f);
+}
+
 // Blends the shares of this frame into the running ones; those of nothing change nothing.
 template <std::size_t N>
 void blend_in(std::array<float, N>& running, const std::array<float, N>& counts) {
-    const float sum = std::accumulate(counts.begin(), counts.end(), 0.0f);
+    const float sum = sum_of(counts);
     if (sum <= 0) return;
-    const bool first = std::accumulate(running.begin(), running.end(), 0.0f) <= 0;
-    const float keep = first ? 0.0f : kShareMemory;
+    const float keep = sum_of(running) <= 0 ? 0.0f : kShareMemory;
     for (std::size_t i = 0; i < N; ++i)
         running[i] = keep * running[i] + (1 - keep) * counts[i] / sum;
 }
@@ -128,57 +134,81 @@ void Departure::count(const Step& step) {
                 step.flow.valid.row(y)[x] != 0 ? 1.0f : kInvalidWeight;
         }
     }
-    blend_in(inside_, inside);
+    // What is left of a surface that goes behind something moves as that does.
+    const float samples = sum_of(inside);
+    most_inside_ = std::max(most_inside_, samples);
+    if (samples > kTooFew * most_inside_) blend_in(inside_, inside);
     blend_in(outside_, outside);
 }
 
-Departure::Shares Departure::odds() const {
+// How far the motion of inside and outside differs, 0 to 1.
+float Departure::trust() const {
     const Shares in = smoothed(inside_), out = smoothed(outside_);
     float apart = 0;
     for (std::size_t i = 0; i < kBins; ++i)
         apart += 0.5f * std::abs(in[i] - out[i]);
-    const float trust = smooth_step(apart, kAlike, kApart);
+    return smooth_step(apart, kAlike, kApart);
+}
+
+Departure::Shares Departure::odds(const Shares& in) const {
+    const Shares out = smoothed(outside_);
+    const float weight = trust();
     Shares odds{};
     for (std::size_t i = 0; i < kBins; ++i) {
         const float ratio = std::log((in[i] + kUnseenShare) / (out[i] + kUnseenShare));
-        odds[i] = trust * std::clamp(ratio, -kMostNow, kMostNow);
+        odds[i] = weight * std::clamp(ratio, -kMostNow, kMostNow);
     }
     return odds;
 }
 
 // What one frame says of a pixel.
-float Departure::odds_now(float departure, float age, const Shares& odds) const {
+float Departure::odds_now(const DepartureInput& in, Vec2i at, float departure,
+                          const Shares& odds) const {
     const float bin = std::min(bin_of(departure), static_cast<float>(kBins) - 1.001f);
     const auto i = static_cast<std::size_t>(bin);
     const float part = bin - static_cast<float>(i);
-    const auto at = [&](const Shares& of) { return (1 - part) * of[i] + part * of[i + 1]; };
-    const float now = at(odds);
+    const auto read = [&](const Shares& of) { return (1 - part) * of[i] + part * of[i + 1]; };
+    const float now = read(odds);
     if (now > 0) return kForWeight * now;
-    const float rare = 1 - smooth_step(at(inside_), kRare, kCommon);
-    return now * std::max(kAgainstOld * rare, std::exp(-age / kYoung));
+    const float young = std::exp(-age_.at(at.x, at.y) / kYoung);
+    float old = kAgainstOld * (1 - smooth_step(read(inside_), kRare, kCommon));
+    if (now == 0 || old <= young || !in.area.contains(at.x, at.y)) return now * young;
+    const float* surface = in.surface_motion.pixel(at.x - in.area.x0, at.y - in.area.y0);
+    const float* measured = in.flow.d.pixel(at.x, at.y);
+    old *= speaks_against({in.frame, in.prev_frame, in.area}, at, Vec2(surface[0], surface[1]),
+                          Vec2(measured[0], measured[1]));
+    return now * std::max(old, young);
 }
 
-const ImageF1& Departure::advance(ViewF1 prev_phi, const FlowField& flow, float unit_px) {
-    const Step step(prev_phi, flow, unit_px);
+const ImageF1& Departure::advance(const DepartureInput& in) {
+    const Step step(in.prev_phi, in.flow, in.unit_px);
     count(step);
-    const Shares shares = odds();
-    ImageF1 age(age_.size()), odds(odds_.size());
-    parallel_rows(prev_phi.height(), 16, [&](int y0, int y1) {
+    Shares any;
+    any.fill(1.0f / kBins);
+    const Shares shares = this->odds(smoothed(inside_));
+    any = this->odds(any);
+    const Size size = in.prev_phi.size();
+    const ImageF1 age_before = std::exchange(age_, ImageF1(size));
+    ImageF1 odds(size);
+    departs_ = ImageF1(size);
+    parallel_rows(size.height, 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < prev_phi.width(); ++x) {
+            for (int x = 0; x < size.width; ++x) {
                 // What has just been uncovered came from nowhere: nothing is known of it.
-                const bool known = flow.valid.row(y)[x] != 0;
-                if (known && before(prev_phi, flow, x, y) > 0)
-                    age.at(x, y) = std::min(before(age_, flow, x, y) + 1, kOldest);
-                const float now = odds_now(step.departure(x, y), age.at(x, y), shares);
-                float sum = known ? kMemory * before(odds_, flow, x, y) : 0.0f;
+                const bool known = in.flow.valid.row(y)[x] != 0;
+                if (known && before(in.prev_phi, in.flow, x, y) > 0)
+                    age_.at(x, y) = std::min(before(age_before, in.flow, x, y) + 1, kOldest);
+                const float departure = step.departure(x, y);
+                const float bin = std::min(bin_of(departure), static_cast<float>(kBins - 1));
+                departs_.at(x, y) = any[static_cast<std::size_t>(bin)];
+                const float now = odds_now(in, {x, y}, departure, shares);
+                float sum = known ? kMemory * before(odds_, in.flow, x, y) : 0.0f;
                 // What moves with the background now was taken for surface by an edge's motion.
                 if (now < 0) sum = std::min(sum, 0.0f);
                 odds.at(x, y) = std::clamp(sum + now, -kMostAgainst, kMostFor);
             }
         }
     });
-    age_ = std::move(age);
     odds_ = std::move(odds);
     return odds_;
 }

@@ -16,6 +16,7 @@
 #include "engine/mask/key_places.h"
 #include "engine/mask/left_behind.h"
 #include "engine/mask/match_evidence.h"
+#include "engine/mask/motion_return.h"
 #include "engine/mask/motion_sides.h"
 #include "engine/mask/newcomers.h"
 #include "engine/mask/shape_transport.h"
@@ -28,7 +29,6 @@
 namespace weft {
 namespace {
 
-constexpr float kClearancePx = 1.5f;  // nearer to a boundary, colours are mixed
 // Of the new frame, only what lies well outside the expected boundary counts: new background.
 constexpr float kUnsureClearancePx = 6;
 constexpr float kFarBands = 0.8f;      // motion that leads so far outside is believed
@@ -69,21 +69,6 @@ Matte either(const Matte& a, const Matte& b) {
     return both;
 }
 
-// Nearer to the boundary than half of its usual softness, colours are mixed.
-float clearance_of(const ImageF1& phi, const ImageF1& softness) {
-    double sum = 0, n = 0;
-    for (int y = 0; y < phi.height(); ++y) {
-        for (int x = 0; x < phi.width(); ++x) {
-            if (std::abs(phi.at(x, y)) >= 1) continue;
-            sum += static_cast<double>(softness.at(x, y));
-            n += 1;
-        }
-    }
-    constexpr float kMostPx = 6;
-    const float usual = n > 0 ? static_cast<float>(sum / n) : 0.0f;
-    return std::clamp(0.7f * usual, kClearancePx, kMostPx);
-}
-
 }  // namespace
 
 struct MatteWalker::State {
@@ -98,12 +83,13 @@ struct MatteWalker::State {
     SurfacePalette palette;
     MatteOptions options;
     float confidence = 1;
-    ImageF1 key_softness;               ///< Half the width of the keyframe's edge, pixels.
-    float clearance_px = kClearancePx;  ///< Nearer to the boundary, colours are not used.
-    Matte last;                         ///< The matte of the walk's last frame.
+    ImageF1 key_softness;    ///< Half the width of the keyframe's edge, pixels.
+    float clearance_px = 0;  ///< Nearer to the boundary, colours are not used.
+    Matte last;              ///< The matte of the walk's last frame.
     SurfaceReturn hidden;
     FlatFills fills;
     Departure departure;
+    MotionReturn lost;
     MotionSides sides = {};
     Uncovered uncovered = {};
     Newcomers newcomers = {};
@@ -114,7 +100,7 @@ struct MatteWalker::State {
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
-    void take_back(ViewU8x3 now, ImageF1& distance, Matte& matte);
+    void take_back(ViewU8x3 now, const FlowField& prev_from_cur, ImageF1& distance, Matte& matte);
     void take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte);
     void take_changed(const Matte& inside, ImageF1& distance, Matte& matte) const;
     void drop_islands(ViewU8x3 now, const FlowField& prev_from_cur, ViewF2 background,
@@ -148,11 +134,12 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            options,
                                            1.0f,
                                            {},
-                                           kClearancePx,
+                                           0.0f,
                                            copy_of(key),
                                            SurfaceReturn(frame, phi),
                                            FlatFills(frame, phi),
-                                           Departure(phi)});
+                                           Departure(phi),
+                                           MotionReturn(phi)});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
     const ImageF1& softness = state_->key_softness;
@@ -214,7 +201,9 @@ RefinedBoundary MatteWalker::State::find_boundary(ViewU8x3 part, const Transport
     judge_uncovered(part, shape.uncovered, colors, palette, matched, wide);
     add_sides(sides.advance({phi, prev_from_cur, shape.outside_motion, area, unit_px()}), shape.phi,
               matched, wide);
-    add_odds(departure.advance(phi, prev_from_cur, unit_px()), palette, part, area, matched, wide);
+    add_odds(
+        departure.advance({phi, prev_from_cur, shape.prev_from_cur, part, frame, area, unit_px()}),
+        palette, part, area, matched, wide);
     add_newcomers(newcomers.advance({part, frame, phi, prev_from_cur, shape.outside_motion,
                                      shape.uncovered.appearing, shape.phi, area, unit_px()}),
                   matched, wide);
@@ -244,26 +233,32 @@ Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, Vi
     return with_soft_edges(part, found.phi, softness, found.matte, expected, options.steadiness);
 }
 
-// Adds what was hidden and is seen again.
-void MatteWalker::State::take_back(ViewU8x3 now, ImageF1& distance, Matte& matte) {
-    const Matte returned = hidden.returned(now, distance);
+// Adds what was hidden and is seen again, by its pattern; or else takes what moves as a whole in
+// place of the little that was found.
+void MatteWalker::State::take_back(ViewU8x3 now, const FlowField& prev_from_cur, ImageF1& distance,
+                                   Matte& matte) {
+    Matte returned = hidden.returned(now, distance);
+    const bool whole = returned.empty();
+    if (whole) {
+        returned =
+            lost.returned({now, distance, prev_from_cur, departure.departs(), palette, unit_px()});
+    }
     if (returned.empty()) return;
     constexpr float kOfFound = 0.25f;  // after it had been lost altogether
     confidence = std::max(confidence, kOfFound);
+    departure.correct(returned, returned);
     const ImageF1 inside = smooth_distance(signed_distance(returned, scale.limit_px), 1);
     for (int y = 0; y < matte.height(); ++y) {
         for (int x = 0; x < matte.width(); ++x) {
             const float depth = inside.at(x, y);
-            if (depth > -1) {
-                const float code = 255 * std::clamp(0.5f + depth, 0.0f, 1.0f);
-                matte.at(x, y) =
-                    std::max(matte.at(x, y), static_cast<std::uint8_t>(std::lround(code)));
-            }
             const bool known = distance.at(x, y) > 0;
-            distance.at(x, y) = std::max(distance.at(x, y), depth);
+            const auto code =
+                static_cast<std::uint8_t>(std::lround(255 * std::clamp(0.5f + depth, 0.0f, 1.0f)));
+            matte.at(x, y) = whole ? code : std::max(matte.at(x, y), code);
+            distance.at(x, y) = whole ? depth : std::max(distance.at(x, y), depth);
             if (known) continue;
             // Also where it may grow to next.
-            const Vec2 place = hidden.key_place(x, y);
+            const Vec2 place = whole ? lost.key_place(x, y) : hidden.key_place(x, y);
             key_from_prev.pixel(x, y)[0] = place.x;
             key_from_prev.pixel(x, y)[1] = place.y;
         }
@@ -357,7 +352,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
         s.confirmed.clear();
-        s.departure = Departure(phi);
+        s.departure.advance({s.phi, prev_from_cur, {}, {}, {}, {}, s.unit_px()});
         s.sides = {};
         s.newcomers = {};
     } else {
@@ -382,7 +377,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
         s.newcomers.settle(phi);
     }
     s.drop_islands(frame, prev_from_cur, background, phi, estimate.matte);
-    s.take_back(frame, phi, estimate.matte);
+    s.take_back(frame, prev_from_cur, phi, estimate.matte);
     s.take_whole_fills(frame, phi, estimate.matte);
     estimate.confidence = s.confidence;
     estimate.since = s.confirmed.since();
@@ -390,7 +385,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     s.phi = std::move(phi);
     s.seen = covered.empty() ? ImageF1() : seen_distance(s.phi, covered);
     s.plate.update(frame, s.seen_phi());
-    s.palette.follow(frame, s.seen_phi(), s.scale.band_px);
+    if (!s.lost.lost(s.phi)) s.palette.follow(frame, s.seen_phi(), s.scale.band_px);
     s.frame = copy_of(frame);
     s.last = estimate.matte;
     return estimate;

@@ -11,6 +11,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/mask/motion_sides.h"
+#include "engine/mask/motion_support.h"
 #include "engine/mask/patch_difference.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/spread_motion.h"
@@ -33,9 +34,6 @@ constexpr float kWeight = 2;      // since colours speak against it; with 3 wall
 constexpr float kAgree = 0.3f;    // deviation of the surface's motion, of what it is told from
 // Of the surface, to tell whether a part goes as a newcomer does.
 constexpr float kEvery_px = 6, kPart = 0.1f, kTogether_px = 0.8f;
-// How many times less the picture must change along another motion than along the surface's.
-constexpr float kAlike = 1.2f, kAnother = 2;
-constexpr float kNoise = 3;  // 8-bit levels
 
 // Whether a pixel of the frame has no past that motion can tell, and lies where the surface has
 // moved away from what surrounds it.
@@ -48,38 +46,6 @@ bool appears(const NewcomersInput& in, int x, int y) {
     const float* o = in.outside_motion.pixel(u, v);
     return sample_bilinear(in.prev_phi, static_cast<float>(x) + o[0],
                            static_cast<float>(y) + o[1]) > 0;
-}
-
-// Mean difference, 8-bit levels, of a pixel's surroundings and the most similar ones of the frame
-// before around where `motion` leads.
-float difference_along(const NewcomersInput& in, Vec2i at, Vec2 motion) {
-    const Vec2i to = at + Vec2i(static_cast<int>(std::lround(motion.x)),
-                                static_cast<int>(std::lround(motion.y)));
-    const auto has_patch = [](Vec2i p, Size size) {
-        return p.x >= kPatchRadius && p.y >= kPatchRadius && p.x < size.width - kPatchRadius &&
-               p.y < size.height - kPatchRadius;
-    };
-    const Vec2i here = at - Vec2i(in.area.x0, in.area.y0);
-    if (!has_patch(here, in.area.size())) return 0;
-    int least = 255 * kPatchValues;
-    for (int v = to.y - 1; v <= to.y + 1; ++v) {
-        for (int u = to.x - 1; u <= to.x + 1; ++u) {
-            if (!has_patch({u, v}, in.prev_frame.size())) continue;
-            const int difference =
-                patch_difference(in.frame.pixel(here.x, here.y), in.frame.stride(),
-                                 in.prev_frame.pixel(u, v), in.prev_frame.stride(), least);
-            least = std::min(least, difference);
-        }
-    }
-    return static_cast<float>(least) / kPatchValues;
-}
-
-// How far the picture speaks against the motion of the surface, 0 to 1: what is plain moves with
-// anything.
-float speaks_against(const NewcomersInput& in, Vec2i at, Vec2 surface, Vec2 measured) {
-    const float ratio = (difference_along(in, at, surface) + kNoise) /
-                        (difference_along(in, at, measured) + kNoise);
-    return smooth_step(ratio, kAlike, kAnother);
 }
 
 Vec2 pixel_of(ViewF2 field, int x, int y) {
@@ -201,7 +167,9 @@ void Newcomers::judge(const NewcomersInput& in, const Matte& thick) {
                 float now =
                     side_of(moved, of_surface, pixel_of(in.outside_motion, x, y), in.unit_px);
                 if (now < 0 && any_part_goes(all, moved, kTogether_px * in.unit_px)) continue;
-                if (now < 0) now *= speaks_against(in, {fx, fy}, of_surface, moved);
+                if (now < 0)
+                    now *= speaks_against({in.frame, in.prev_frame, in.area}, {fx, fy}, of_surface,
+                                          moved);
                 float& sum = odds_.at(fx, fy);
                 sum = std::clamp(kMemory * sum + now, -kMost, kMost);
                 if (sum > kOwn) doubted_.at(fx, fy) = 0;

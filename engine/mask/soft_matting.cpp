@@ -365,4 +365,18 @@ Matte with_soft_edges(ViewU8x3 frame, ViewF1 phi, ViewF1 softness, Matte crisp, 
     return crisp;
 }
 
+float clearance_of(const ImageF1& phi, const ImageF1& softness) {
+    double sum = 0, n = 0;
+    for (int y = 0; y < phi.height(); ++y) {
+        for (int x = 0; x < phi.width(); ++x) {
+            if (std::abs(phi.at(x, y)) >= 1) continue;
+            sum += static_cast<double>(softness.at(x, y));
+            n += 1;
+        }
+    }
+    constexpr float kLeastPx = 1.5f, kMostPx = 6;
+    const float usual = n > 0 ? static_cast<float>(sum / n) : 0.0f;
+    return std::clamp(0.7f * usual, kLeastPx, kMostPx);
+}
+
 }  // namespace weft

@@ -16,6 +16,10 @@ namespace weft {
 /// boundary the nearest width continues. Pure.
 [[nodiscard]] ImageF1 edge_softness(ViewU8x1 matte, ViewF1 shape, float limit_px);
 
+/// How near to the boundary colours are mixed, px: half of its usual softness, 1.5 to 6. `phi`: its
+/// signed distance, of the size of `softness` (edge_softness()). Pure.
+[[nodiscard]] float clearance_of(const ImageF1& phi, const ImageF1& softness);
+
 /// A prior for each pixel's coverage.
 struct CoveragePrior {
     ImageF1 value;   ///< 0–1.

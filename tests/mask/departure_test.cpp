@@ -27,6 +27,12 @@ struct Scene {
             }
         }
     }
+    // Plain pictures, which tell no motions apart.
+    [[nodiscard]] const ImageF1& advanced(Departure& departure, ViewF1 before) const {
+        static const ImageU8x3 plain(kFrame);
+        const ImageF2 surface(kFrame);
+        return departure.advance({before, flow, surface, plain, plain, rect_of(kFrame), 1});
+    }
     [[nodiscard]] ImageF1 phi(int leak_px = 0) const {
         Matte inside(kFrame);
         for (int y = square.y0; y < square.y1; ++y)
@@ -43,7 +49,7 @@ TEST(Departure, SpeaksAgainstTheGroundThatIsUncoveredAndForWhatMovesOn) {
     for (int frame = 0; frame < 6; ++frame) {
         const ImageF1 before = scene.phi(frame == 0 ? 0 : 4);
         scene.step();
-        odds = departure.advance(before, scene.flow, 1);
+        odds = scene.advanced(departure, before);
     }
     EXPECT_LT(odds.at(scene.square.x0 - 6, 120), -2) << "uncovered on the frame before";
     EXPECT_GT(odds.at(160, 120), 0) << "the surface";
@@ -60,7 +66,7 @@ TEST(Departure, SparesWhatHasLongBeenInsideAndRests) {
     for (int y = foot.y0; y < foot.y1; ++y)
         for (int x = foot.x0; x < foot.x1; ++x)
             scene.flow.d.pixel(x, y)[0] = 0;
-    const ImageF1 odds = departure.advance(before, scene.flow, 1);
+    const ImageF1 odds = scene.advanced(departure, before);
     EXPECT_GT(odds.at(134, 150), -1);
     EXPECT_LT(odds.at(20, 20), -2);
 }
@@ -72,7 +78,8 @@ TEST(Departure, SaysNothingOfASurfaceThatRestsOnItsBackground) {
         for (int x = 0; x < kFrame.width; ++x)
             still.valid.row(y)[x] = 1;
     Departure departure(scene.phi());
-    const ImageF1 odds = departure.advance(scene.phi(), still, 1);
+    scene.flow = still;
+    const ImageF1 odds = scene.advanced(departure, scene.phi());
     for (int y = 0; y < kFrame.height; ++y)
         for (int x = 0; x < kFrame.width; ++x)
             ASSERT_EQ(odds.at(x, y), 0.0f) << x << ", " << y;
@@ -83,13 +90,13 @@ TEST(Departure, ForgetsWhatWasCorrected) {
     Departure departure(scene.phi());
     const ImageF1 before = scene.phi();
     scene.step();
-    const float once = departure.advance(before, scene.flow, 1).at(20, 20);
+    const float once = scene.advanced(departure, before).at(20, 20);
     Matte where(kFrame), inside(kFrame);
     where.at(20, 20) = 255;
     departure.correct(where, inside);
     const ImageF1 later = scene.phi();
     scene.step();
-    const ImageF1& odds = departure.advance(later, scene.flow, 1);
+    const ImageF1& odds = scene.advanced(departure, later);
     EXPECT_NEAR(odds.at(20, 20), once, 0.01f);
     EXPECT_LT(odds.at(24, 20), once - 1);
 }
@@ -108,7 +115,7 @@ TEST(Departure, SparesWhatWasConfirmedInside) {
         if (confirmed) departure.correct(where, where);
         const ImageF1 before = scene.phi(kStrip_px);
         scene.step();
-        return departure.advance(before, scene.flow, 1).at(strip.x0 + 6, 120);
+        return scene.advanced(departure, before).at(strip.x0 + 6, 120);
     };
     EXPECT_LT(odds_of(false), -2);
     EXPECT_GT(odds_of(true), -1.2f);

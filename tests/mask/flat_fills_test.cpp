@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
@@ -196,6 +198,25 @@ TEST(FlatFills, LeavesWhatIsNeitherFillNorLine) {
         for (int x = card.x0 + 2; x < card.x1 - 2; ++x)
             EXPECT_NE(found.at(x, y), 0) << x << " " << y;
     }
+}
+
+// A white shirt before a table of the same white, as a phone films it: hardly any grain, and a
+// shading that falls into pieces of nearly one colour.
+TEST(FlatFills, TakesTheShadingOfFilmForNoFills) {
+    const Recti shirt{40, 10, 120, 60};
+    ImageU8x3 frame(kFrame);
+    for (int y = 0; y < kFrame.height; ++y) {
+        for (int x = 0; x < kFrame.width; ++x) {
+            const double shade =
+                9 * std::sin(0.11 * x + 0.7 * std::sin(0.09 * y)) * std::cos(0.13 * y);
+            const bool wall = y < 60 && !(x >= shirt.x0 && x < shirt.x1 && y >= shirt.y0);
+            for (int c = 0; c < 3; ++c)
+                frame.pixel(x, y)[c] =
+                    static_cast<std::uint8_t>(wall ? 90 : std::lround(225 + shade));
+        }
+    }
+    const FlatFills fills(frame, distance_of(shirt));
+    EXPECT_TRUE(fills.corrected(frame, distance_of({40, 12, 120, 62})).empty());
 }
 
 }  // namespace
