@@ -124,6 +124,8 @@ Status sample_at(GpuState& state, FramePlace& place, std::shared_ptr<const Devic
     WEFT_TRY(args, send_texture(state, place, *plane, request, parcel));
     args.out = place.texture.as<float>();
     Device& device = *state.device();
+    // Outside of the matte nothing is sampled, and all of it is copied.
+    WEFT_CHECK_OK(device.clear(place.queue.get(), args.out, pixels * kRgbBytes));
     WEFT_CHECK_OK(
         launch<kernels::SamplePlane>(device, place.queue.get(), KernelId::kSamplePlane, args));
     WEFT_CHECK_OK(
