@@ -258,8 +258,9 @@ void Session::find_render_folder() {
         std::error_code none;
         while (fs::exists(folder(base, version), none))
             ++version;
-        return [this, found = folder(base, version)] {
-            if (path_.empty()) view_.render_folder = found;
+        return [this, first = folder(base, 1), found = folder(base, version)] {
+            // Not if the project was saved or took another name meanwhile.
+            if (view_.render_folder == first) view_.render_folder = found;
         };
     });
 }
