@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/core/parallel.h"
+#include "engine/mask/signed_distance.h"
 
 namespace weft {
 namespace {
@@ -23,14 +24,6 @@ constexpr float kMostMotion = 3, kMostColor = 2;         // log odds
 constexpr double kLeastMotion = 0.5;                     // log odds, mean of a piece
 constexpr float kSpread_px = 4;                          // of the evidence, at 854×480
 constexpr int kStep = 2;                                 // px: it is gathered on each such pixel
-
-double area_of(ViewF1 phi) {
-    double count = 0;
-    for (int y = 0; y < phi.height(); ++y)
-        count += static_cast<double>(
-            std::count_if(phi.row(y), phi.row(y) + phi.width(), [](float d) { return d > 0; }));
-    return count;
-}
 
 // Log odds, averaged near by.
 cv::Mat evidence(const MotionReturnInput& in) {

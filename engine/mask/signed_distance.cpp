@@ -1,5 +1,7 @@
 #include "engine/mask/signed_distance.h"
 
+#include <algorithm>
+
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -76,6 +78,14 @@ ImageF1 smooth_distance(ViewF1 phi, int passes) {
         });
     }
     return result;
+}
+
+double area_of(ViewF1 phi) {
+    double count = 0;
+    for (int y = 0; y < phi.height(); ++y)
+        count += static_cast<double>(
+            std::count_if(phi.row(y), phi.row(y) + phi.width(), [](float d) { return d > 0; }));
+    return count;
 }
 
 }  // namespace weft

@@ -45,4 +45,7 @@ namespace weft {
     return top + v * (bottom - top);
 }
 
+/// How many pixels are inside, where the signed distance is above 0. Pure.
+[[nodiscard]] double area_of(ViewF1 phi);
+
 }  // namespace weft

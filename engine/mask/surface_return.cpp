@@ -35,14 +35,6 @@ ImageF1 luma_of(ViewU8x3 frame, const Recti& area) {
     return out;
 }
 
-double area_of(ViewF1 phi) {
-    double count = 0;
-    for (int y = 0; y < phi.height(); ++y)
-        count += static_cast<double>(
-            std::count_if(phi.row(y), phi.row(y) + phi.width(), [](float d) { return d > 0; }));
-    return count;
-}
-
 bool covers_any(const Matte& matte) {
     const std::uint8_t* codes = matte.data();
     return std::any_of(codes, codes + matte.size_bytes(), [](int code) { return code != 0; });

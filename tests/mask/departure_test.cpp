@@ -71,6 +71,33 @@ TEST(Departure, SparesWhatHasLongBeenInsideAndRests) {
     EXPECT_LT(odds.at(20, 20), -2);
 }
 
+TEST(Departure, SpeaksAgainstOldPixelsOnlyWhereThePictureTellsMotionsApart) {
+    // As before, but the foot is too small to be what the surface does, and its picture stays where
+    // it was, or is plain and moves with anything.
+    const auto odds_of_foot = [](bool plain) {
+        Scene scene;
+        Departure departure(scene.phi());
+        const ImageF1 before = scene.phi();
+        scene.step();
+        for (int y = 150; y < 158; ++y)
+            for (int x = 130; x < 138; ++x)
+                scene.flow.d.pixel(x, y)[0] = 0;
+        ImageU8x3 picture(kFrame);
+        for (int y = 0; y < kFrame.height; ++y)
+            for (int x = 0; x < kFrame.width; ++x)
+                picture.pixel(x, y)[1] = plain ? 90 : static_cast<std::uint8_t>(x * x * 7 + y * 53);
+        ImageF2 surface(kFrame);
+        for (int y = 0; y < kFrame.height; ++y)
+            for (int x = 0; x < kFrame.width; ++x)
+                surface.pixel(x, y)[0] = -4;
+        return departure
+            .advance({before, scene.flow, surface, picture, picture, rect_of(kFrame), 1})
+            .at(134, 154);
+    };
+    EXPECT_GT(odds_of_foot(true), -0.2f);
+    EXPECT_LT(odds_of_foot(false), odds_of_foot(true) - 0.1f);
+}
+
 TEST(Departure, SaysNothingOfASurfaceThatRestsOnItsBackground) {
     Scene scene;
     FlowField still(kFrame);
