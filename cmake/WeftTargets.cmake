@@ -21,7 +21,7 @@ endfunction()
 
 # weft_precompile(NAME header…)
 #   Headers that nearly every source of a library includes, parsed once for all of them. The sources include what they
-#   use all the same: the sanitizer and fuzzing builds, and clang-tidy, go without.
+#   use all the same: the builds that join sources (preset "joined"), and clang-tidy, go without.
 function(weft_precompile name)
     target_precompile_headers(weft_${name} PRIVATE ${ARGN})
     # For the compiler cache.
@@ -29,8 +29,9 @@ function(weft_precompile name)
 endfunction()
 
 # weft_test(NAME SOURCES a_test.cpp … [LIBS dep …] [LABELS full] [OPTIMISED])
-#   One GoogleTest program per folder, each of its tests one for ctest. With the label "full" the whole program is one
-#   test instead: listing a program's tests means starting it, and a plain ./test need not start what it will not run.
+#   One GoogleTest program per folder, each of its suites one test for ctest. With the label "full" the whole program is
+#   one test instead: listing a program's suites means starting it, and a plain ./test need not start what it will not
+#   run.
 #   OPTIMISED: the tests' own code works for long, such as a search by brute force.
 function(weft_test name)
     cmake_parse_arguments(ARG "OPTIMISED" "" "SOURCES;LIBS;LABELS" ${ARGN})
@@ -46,8 +47,14 @@ function(weft_test name)
         add_test(NAME ${name} COMMAND ${target})
         set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS "${ARG_LABELS}")
     else()
-        include(GoogleTest)
-        gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST
-            TEST_PREFIX "${name}." PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
+        set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
+        file(GENERATE OUTPUT ${suites} CONTENT "set(program \"$<TARGET_FILE:${target}>\")
+set(folder \"${CMAKE_CURRENT_BINARY_DIR}\")
+set(name \"${name}\")
+set(timeout 1800)
+set(labels \"${ARG_LABELS}\")
+include(\"${PROJECT_SOURCE_DIR}/cmake/TestSuites.cmake\")
+")
+        set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites})
     endif()
 endfunction()

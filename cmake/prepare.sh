@@ -70,21 +70,79 @@ best_cpu() {
     fi
 }
 
+# configure ROOT PRESET [CPU]: configures the tree of a preset where that is needed.
+configure() {
+    local root=$1 preset=$2 cpu=${3-} tree=$1/build/$2
+    use_compiler_cache "$root"
+    if [[ -f $tree/build.ninja && ! $root/CMakePresets.json -nt $tree/build.ninja ]] &&
+        grep -qx "WEFT_CPU:STRING=$cpu" "$tree/CMakeCache.txt" 2>/dev/null; then return; fi
+    say "Configuring $tree"
+    # A preset is found from the current folder.
+    (cd "$root" && cmake --preset "$preset" -DWEFT_CPU="$cpu") >&2 || die "CMake failed; see its message above"
+}
+
+# minutes SECONDS: as 2:05.
+minutes() { printf '%d:%02d' $(($1 / 60)) $(($1 % 60)); }
+
+# show_build_progress: reads what ninja prints with NINJA_STATUS=@%f/%t@ and shows its steps as one line that moves, or
+# without a terminal as a line after every tenth of the work; passes on all else, which is what compilers say.
+show_build_progress() {
+    local line started=$SECONDS done_steps all_steps gone left tenth last_tenth=0 moving=0
+    while IFS= read -r line; do
+        if [[ ! $line =~ ^@([0-9]+)/([0-9]+)@ ]]; then
+            [[ $line == "ninja: Entering directory"* ]] && continue
+            ((moving)) && printf '\n' >&2
+            moving=0
+            printf '%s\n' "$line" >&2
+            continue
+        fi
+        done_steps=${BASH_REMATCH[1]} all_steps=${BASH_REMATCH[2]}
+        gone=$((SECONDS - started))
+        left=$((gone * (all_steps - done_steps) / done_steps))
+        line="weft: step $done_steps of $all_steps, $(minutes $gone) gone, about $(minutes $left) left"
+        tenth=$((done_steps * 10 / all_steps))
+        if [[ -t 2 ]]; then
+            printf '\r\033[K%s' "$line" >&2
+            moving=1
+        elif ((tenth > last_tenth)); then
+            printf '%s\n' "$line" >&2
+        fi
+        last_tenth=$tenth
+    done
+    ((moving)) && printf '\n' >&2
+    return 0
+}
+
 # build ROOT PRESET TARGET [CPU]: configures where needed and builds; says nothing when all is up to date.
 build() {
     local root=$1 preset=$2 target=$3 cpu=${4-} tree=$1/build/$2
-    use_compiler_cache "$root"
-    if [[ ! -f $tree/build.ninja || $root/CMakePresets.json -nt $tree/build.ninja ]] ||
-        ! grep -qx "WEFT_CPU:STRING=$cpu" "$tree/CMakeCache.txt" 2>/dev/null; then
-        say "Configuring $tree"
-        # A preset is found from the current folder.
-        (cd "$root" && cmake --preset "$preset" -DWEFT_CPU="$cpu") >&2 || die "CMake failed; see its message above"
-    fi
+    configure "$root" "$preset" "$cpu"
     if LC_ALL=C ninja -C "$tree" -n "$target" 2>/dev/null | grep -q 'no work to do'; then return; fi
     local jobs
     jobs=$(build_jobs)
     say "Building with $jobs jobs"
-    ninja -C "$tree" -j "$jobs" "$target" >&2 || die "The build failed; see the compiler's messages above"
+    # With pipefail, as every script that sources this sets it.
+    NINJA_STATUS='@%f/%t@' ninja -C "$tree" -j "$jobs" "$target" 2>&1 | show_build_progress ||
+        die "The build failed; see the compiler's messages above"
+}
+
+# on_each_core COMMAND ARGUMENT…: calls it with each argument, as many at a time as there are cores; exits with the first
+# that fails, and stops the others.
+on_each_core() {
+    local command=$1 argument running=0 cores
+    cores=$(nproc 2>/dev/null || echo 1)
+    shift
+    trap 'kill $(jobs -p) 2>/dev/null || true' EXIT
+    for argument in "$@"; do
+        if ((running == cores)); then
+            wait -n || exit 1
+            running=$((running - 1))
+        fi
+        "$command" "$argument" &
+        running=$((running + 1))
+    done
+    for (( ; running > 0; --running)); do wait -n || exit 1; done
+    trap - EXIT
 }
 
 # make_starter_library ROOT TREE: the starter textures as a library beside the program, which a user's

@@ -15,10 +15,6 @@ using kernels::SoftPixel;
 constexpr char kInstead[] = "The CPU composited the frame instead.";
 constexpr std::size_t kRgbBytes = 3 * sizeof(float);
 
-std::size_t area(Size s) {
-    return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height);
-}
-
 template <class T, int C>
 void pack(ImageView<const T, C> from, T* to) {
     const auto row = static_cast<std::size_t>(from.width()) * C;

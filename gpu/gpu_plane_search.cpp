@@ -11,14 +11,10 @@ using kernels::KernelId;
 using kernels::SearchArgs;
 
 constexpr std::size_t kStagingBytes = std::size_t{1} << 20;
-constexpr char kInstead[] = "The CPU searched for placements instead.";
+constexpr char kSearchedInstead[] = "The CPU searched for placements instead.";
 
 std::uint32_t word_of(const std::uint8_t* rgb) {
     return std::uint32_t{rgb[0]} | std::uint32_t{rgb[1]} << 8 | std::uint32_t{rgb[2]} << 16;
-}
-
-std::size_t area(Size s) {
-    return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height);
 }
 
 // The choice, then a byte for each candidate.
@@ -151,7 +147,7 @@ template <class T>
 Expected<T> GpuPlaneSearch::noted(Expected<T> result) {
     if (!result && result.error().code != ErrorCode::kUsage) {
         broken_ = true;
-        state_->note(result.error(), kInstead);
+        state_->note(result.error(), kSearchedInstead);
     }
     return result;
 }

@@ -3,6 +3,7 @@
 // frames, and failures.
 
 #include <atomic>
+#include <cstddef>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -10,9 +11,14 @@
 #include <vector>
 
 #include "engine/compute/plane_pyramid.h"
+#include "engine/core/geometry.h"
 #include "gpu/device.h"
 
 namespace weft {
+
+[[nodiscard]] inline std::size_t area(Size s) {
+    return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height);
+}
 
 /// A texture plane on the device.
 struct DevicePlane {

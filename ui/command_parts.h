@@ -13,6 +13,9 @@ namespace weft {
                               std::function<bool(const Ctx&)> enabled = {},
                               std::function<bool(const Ctx&)> checked = {});
 
+/// Whether a project is open.
+[[nodiscard]] bool is_open(const Ctx& c);
+
 void add_file_commands(std::vector<Command>& out);
 
 }  // namespace weft

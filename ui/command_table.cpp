@@ -14,9 +14,6 @@
 namespace weft {
 namespace {
 
-bool open(const Ctx& c) {
-    return c.view.open;
-}
 bool has_plate(const Ctx& c) {
     return c.view.open && c.view.plate.state == PlateView::State::kOpen;
 }
@@ -58,7 +55,7 @@ void add_edit_commands(std::vector<Command>& out) {
     out.back().repeats = true;
     out.push_back(command(
         "edit.history", "Edit", "History…", icons::kHistory, "Ctrl+H",
-        [](Ctx& c) { c.state.history_open = !c.state.history_open; }, open));
+        [](Ctx& c) { c.state.history_open = !c.state.history_open; }, is_open));
     out.push_back(command("edit.palette", "Edit", "Find a command…", icons::kMagnify,
                           "Ctrl+Shift+P", [](Ctx& c) {
                               c.state.palette_open = true;
@@ -67,7 +64,7 @@ void add_edit_commands(std::vector<Command>& out) {
                           }));
     out.push_back(command(
         "edit.shot", "Edit", "Shot settings…", icons::kFilm, "Ctrl+Shift+E",
-        [](Ctx& c) { c.state.shot_open = !c.state.shot_open; }, open));
+        [](Ctx& c) { c.state.shot_open = !c.state.shot_open; }, is_open));
     out.push_back(command("edit.settings", "Edit", "Settings…", icons::kSettings, "Ctrl+,",
                           [](Ctx& c) { c.state.settings_open = !c.state.settings_open; }));
 }
@@ -230,7 +227,7 @@ void add_time_commands(std::vector<Command>& out) {
 
 void add_region_commands(std::vector<Command>& out) {
     out.push_back(command("region.add", "Region", "Add region", icons::kPlus, "Ctrl+Shift+N",
-                          add_region, open));
+                          add_region, is_open));
     out.push_back(command(
         "region.duplicate", "Region", "Duplicate region", icons::kDuplicate, "Ctrl+D",
         [](Ctx& c) {
@@ -260,7 +257,7 @@ void add_region_commands(std::vector<Command>& out) {
                           "Ctrl+E", ui::add_reference_frame, has_region));
     out.push_back(command(
         "analysis.pause", "Region", "Pause analysis", icons::kPause, "",
-        [](Ctx& c) { c.emit(PauseAnalysis{!c.view.analysis_paused}); }, open,
+        [](Ctx& c) { c.emit(PauseAnalysis{!c.view.analysis_paused}); }, is_open,
         [](const Ctx& c) { return c.view.analysis_paused; }));
 }
 
@@ -324,7 +321,7 @@ void add_tool_commands(std::vector<Command>& out) {
 void add_render_commands(std::vector<Command>& out) {
     out.push_back(command(
         "render.submit", "Render", "Render…", icons::kRocket, "Ctrl+Enter",
-        [](Ctx& c) { set_workspace(c.state, Workspace::kJobs); }, open));
+        [](Ctx& c) { set_workspace(c.state, Workspace::kJobs); }, is_open));
     out.push_back(command("help.shortcuts", "Help", "Keyboard shortcuts", icons::kKeyboard,
                           "Shift+/",
                           [](Ctx& c) { c.state.shortcuts_open = !c.state.shortcuts_open; }));
@@ -338,6 +335,10 @@ void add_render_commands(std::vector<Command>& out) {
 }
 
 }  // namespace
+
+bool is_open(const Ctx& c) {
+    return c.view.open;
+}
 
 std::vector<Command> all_commands() {
     std::vector<Command> out;

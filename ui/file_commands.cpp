@@ -6,10 +6,6 @@
 namespace weft {
 namespace {
 
-bool open(const Ctx& c) {
-    return c.view.open;
-}
-
 void browse(Ctx& c, BrowserState::Purpose purpose) {
     const std::string folder = c.state.browser.folder;
     c.state.browser = {};
@@ -73,10 +69,10 @@ void add_file_commands(std::vector<Command>& out) {
             else
                 c.emit(Save{});
         },
-        open));
+        is_open));
     out.push_back(command(
         "file.save_as", "File", "Save as…", icons::kSave, "Ctrl+Shift+S",
-        [](Ctx& c) { browse(c, BrowserState::Purpose::kSaveProject); }, open));
+        [](Ctx& c) { browse(c, BrowserState::Purpose::kSaveProject); }, is_open));
     out.push_back(command(
         "file.save_version", "File", "Save new version", icons::kSave, "Ctrl+Alt+S",
         [](Ctx& c) {
@@ -85,20 +81,20 @@ void add_file_commands(std::vector<Command>& out) {
             else
                 c.emit(SaveVersion{});
         },
-        open));
+        is_open));
     out.push_back(command(
         "file.collect", "File", "Collect files…", icons::kExport, "",
-        [](Ctx& c) { browse(c, BrowserState::Purpose::kCollect); }, open));
+        [](Ctx& c) { browse(c, BrowserState::Purpose::kCollect); }, is_open));
     out.push_back(command(
         "file.relink", "File", "Relink missing files…", icons::kLink, "",
         [](Ctx& c) { browse(c, BrowserState::Purpose::kRelink); },
         [](const Ctx& c) { return c.view.open && !c.view.missing.empty(); }));
     out.push_back(command(
         "file.textures", "File", "Add textures…", icons::kTexture, "",
-        [](Ctx& c) { browse(c, BrowserState::Purpose::kTextureFolder); }, open));
+        [](Ctx& c) { browse(c, BrowserState::Purpose::kTextureFolder); }, is_open));
     out.push_back(command(
         "file.close", "File", "Close project", icons::kClose, "Ctrl+W",
-        [](Ctx& c) { leave_for(c, "close"); }, open));
+        [](Ctx& c) { leave_for(c, "close"); }, is_open));
     out.push_back(
         command("file.quit", "File", "Quit", "", "Ctrl+Q", [](Ctx& c) { leave_for(c, ""); }));
 }

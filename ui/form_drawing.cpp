@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "engine/core/quad.h"
+#include "ui/angles.h"
 
 namespace weft::ui {
 namespace {
 
-constexpr double kDegree = 3.14159265358979 / 180;
 constexpr int kRoundSteps = 48;
 
 Vec2 vec(glm::dvec2 p) {
@@ -22,13 +22,13 @@ void put(FormGuide& guide, std::size_t first, glm::dvec2 at) {
     guide.numbers[first] = at.x;
     guide.numbers[first + 1] = at.y;
 }
-double length(glm::dvec2 v) {
+double length_of(glm::dvec2 v) {
     return std::hypot(v.x, v.y);
 }
 // At right angles to the axis of a cylinder or cone, of length 1.
 glm::dvec2 across(const FormGuide& guide) {
     const glm::dvec2 axis = guide.place(2) - guide.place(0);
-    const double l = std::max(length(axis), 1e-6);
+    const double l = std::max(length_of(axis), 1e-6);
     return {-axis.y / l, axis.x / l};
 }
 
@@ -49,7 +49,7 @@ FormGuide round_guide(FormGuideKind kind, glm::dvec2 a, glm::dvec2 b, const View
     FormGuide out{kind, {a.x, a.y, b.x, b.y, 0, 0}};
     // A little inside of the ends, where the outline still runs along the axis.
     constexpr double kIn = 0.1;
-    const double usual = 0.25 * length(b - a);
+    const double usual = 0.25 * length_of(b - a);
     for (std::size_t k = 0; k < 2; ++k) {
         const double t = k == 0 ? kIn : 1 - kIn;
         const double found = half_width(matte, (1 - t) * a + t * b, across(out));
@@ -128,7 +128,7 @@ std::optional<FormGuide> guide_of_drag(FormGuideKind kind, Vec2 from, Vec2 to,
             out = round_guide(kind, a, b, matte);
             break;
         case FormGuideKind::kBall:
-            out.numbers = {a.x, a.y, length(b - a)};
+            out.numbers = {a.x, a.y, length_of(b - a)};
             break;
         case FormGuideKind::kParallel:
         case FormGuideKind::kLevel:
@@ -188,7 +188,7 @@ FormGuide with_handle_at(const FormGuide& guide, std::size_t handle, Vec2 to) {
         for (std::size_t k = 0; k < places; ++k)
             put(out, 2 * k, guide.place(2 * k) + by);
     } else if (guide.kind == FormGuideKind::kBall) {
-        out.numbers[2] = length(at - guide.place(0));
+        out.numbers[2] = length_of(at - guide.place(0));
     } else if (round && handle >= 2) {
         const glm::dvec2 from = at - guide.place(2 * (handle - 2)), n = across(guide);
         out.numbers[2 + handle] = std::abs(from.x * n.x + from.y * n.y);
@@ -233,7 +233,7 @@ void add_parallel(const FormGuide& stroke, std::vector<FormGuide>& strokes) {
         last = &group;
         const glm::dvec2 other = group.place(2) - group.place(0);
         const double dot = std::abs(way.x * other.x + way.y * other.y);
-        if (dot >= std::sqrt(0.5) * length(way) * length(other)) break;
+        if (dot >= std::sqrt(0.5) * length_of(way) * length_of(other)) break;
         last = groups == 2 ? &group : nullptr;
     }
     if (!last) {

@@ -62,8 +62,8 @@ struct Touched {
 };
 
 // The handles of a guide, which they change.
-Touched drag_handles(Ctx& c, const ViewMap& map, bool hovered, std::size_t index,
-                     FormGuide& guide) {
+Touched drag_guide_handles(Ctx& c, const ViewMap& map, bool hovered, std::size_t index,
+                           FormGuide& guide) {
     Touched out;
     const std::vector<GuideHandle> handles = handles_of(guide);
     const ImU32 color = is_shape(guide.kind) ? c.theme.accent_hover : c.theme.warn;
@@ -115,7 +115,7 @@ void take(Ctx& c, const Region& region, const FormGuide& drawn) {
     set_form(c, region);
 }
 
-void draw_new(Ctx& c, const ViewMap& map, const Region& region) {
+void draw_new_guide(Ctx& c, const ViewMap& map, const Region& region) {
     FormToolState& s = c.state.form;
     const Vec2 to = map.to_plate(ImGui::GetIO().MousePos);
     const auto drawn = drawn_guide(c, map, s.kind, *s.from, to);
@@ -143,7 +143,7 @@ void form_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     // Shapes lie on the reference frame; elsewhere the surface has moved on.
     if (const auto reference = reference_of(c, *region); reference && *reference != c.view.frame)
         return;
-    if (s.from) return draw_new(c, map, *region);
+    if (s.from) return draw_new_guide(c, map, *region);
     if (!any_handle_held(c)) {
         s.shape = region->form.shape;
         s.strokes = region->form.strokes;
@@ -151,7 +151,7 @@ void form_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     Touched all;
     for (std::vector<FormGuide>* guides : {&s.shape, &s.strokes}) {
         for (std::size_t k = 0; k < guides->size(); ++k) {
-            const Touched now = drag_handles(c, map, hovered, k, (*guides)[k]);
+            const Touched now = drag_guide_handles(c, map, hovered, k, (*guides)[k]);
             all.over |= now.over;
             all.done |= now.done;
             if (!now.removed) continue;

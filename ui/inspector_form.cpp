@@ -16,8 +16,8 @@ double most_amount(const Region& region) {
     return most;
 }
 
-constexpr FormGuideKind kShapes[] = {FormGuideKind::kPlane, FormGuideKind::kCylinder,
-                                     FormGuideKind::kCone, FormGuideKind::kBall};
+constexpr FormGuideKind kFormShapes[] = {FormGuideKind::kPlane, FormGuideKind::kCylinder,
+                                         FormGuideKind::kCone, FormGuideKind::kBall};
 constexpr FormGuideKind kStrokes[] = {FormGuideKind::kLevel, FormGuideKind::kParallel,
                                       FormGuideKind::kCut};
 
@@ -137,7 +137,7 @@ void form_section(Ctx& c, const Region& region) {
     if (region.form.source == FormSource::kInflate) region_parameter(c, region, "form.roundness");
     keyed_parameter(c, region, "form.amount", "form.amount_keys");
     finding(c, region);
-    kind_buttons(c, "Shapes", {"Plane", "Cylinder", "Cone", "Ball"}, kShapes);
+    kind_buttons(c, "Shapes", {"Plane", "Cylinder", "Cone", "Ball"}, kFormShapes);
     kind_buttons(c, "Strokes", {"Level", "Parallel", "Cut"}, kStrokes);
     const FormParams& form = region.form;
     if (c.state.tool == Tool::kForm) {

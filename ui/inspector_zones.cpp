@@ -16,7 +16,7 @@ struct ZoneWords {
     double max, standard;
 };
 
-constexpr std::array<ZoneWords, 6> kWords{
+constexpr std::array<ZoneWords, 6> kZoneWords{
     {{ZoneKind::kLight, "Light",
       "How much of the light the texture takes inside the zone: 0 none, 1 as elsewhere, 2 twice "
       "the "
@@ -42,7 +42,7 @@ constexpr std::array<ZoneWords, 6> kWords{
       1}}};
 
 const ZoneWords& words_of(ZoneKind kind) {
-    return *std::find_if(kWords.begin(), kWords.end(),
+    return *std::find_if(kZoneWords.begin(), kZoneWords.end(),
                          [&](const ZoneWords& words) { return words.kind == kind; });
 }
 

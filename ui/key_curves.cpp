@@ -9,9 +9,8 @@
 namespace weft::ui {
 namespace {
 
-constexpr float kReach = 8;     // from the mouse to a key that is pressed
-constexpr float kRadius = 5;    // of a key
-constexpr float kNameRow = 22;  // of the list of curves
+constexpr float kCurveReach = 8;  // from the mouse to a key that is pressed
+constexpr float kNameRow = 22;    // of the list of curves
 
 struct Plot {
     std::vector<KeyCurve> curves;  // those that are shown
@@ -91,7 +90,7 @@ void draw_curve(Ctx& c, ImDrawList& list, const Plot& plot, const KeyCurve& curv
 void draw_keys(Ctx& c, ImDrawList& list, const Plot& plot, const KeyCurve& curve) {
     const Theme& t = c.theme;
     const KeysState& s = c.state.keys;
-    const float r = t.px(kRadius);
+    const float r = t.px(kKeyRadius);
     for (const NumberKey& key : plot.numbers(curve).keys) {
         const ImVec2 at(plot.scale.x_of(key.frame), plot.y_of(key.numbers[curve.which]));
         const KeyRef ref{curve.row, key.frame - (s.drag == KeysState::Drag::kKeys ? s.by : 0)};
@@ -108,9 +107,9 @@ struct Pressed {
     std::size_t which;
 };
 
-std::optional<Pressed> key_at(const Ctx& c, const Plot& plot, ImVec2 p) {
+std::optional<Pressed> curve_key_at(const Ctx& c, const Plot& plot, ImVec2 p) {
     std::optional<Pressed> best;
-    float nearest = c.theme.px(kReach);
+    float nearest = c.theme.px(kCurveReach);
     for (const KeyCurve& curve : plot.curves) {
         for (const NumberKey& key : plot.numbers(curve).keys) {
             const float apart = std::hypot(plot.scale.x_of(key.frame) - p.x,
@@ -138,7 +137,7 @@ Region with_values_moved(const Region& before, const KeysState& s, double by) {
     return out;
 }
 
-void go_on(Ctx& c, const Plot& plot) {
+void go_on_in_curves(Ctx& c, const Plot& plot) {
     KeysState& s = c.state.keys;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (s.drag == KeysState::Drag::kBox) {
@@ -166,8 +165,8 @@ void go_on(Ctx& c, const Plot& plot) {
 }
 
 // The list of curves; a click shows one alone, with Shift it is added or left out.
-void draw_names(Ctx& c, ImDrawList& list, const std::vector<KeyCurve>& curves, ImVec2 min,
-                float right) {
+void draw_curve_names(Ctx& c, ImDrawList& list, const std::vector<KeyCurve>& curves, ImVec2 min,
+                      float right) {
     const Theme& t = c.theme;
     KeysState& s = c.state.keys;
     float y = min.y;
@@ -225,7 +224,7 @@ void key_curve_view(Ctx& c, const Region& region, const std::vector<KeyRow>& row
     list.AddRectFilled({left, min.y}, max, t.field);
     std::vector<KeyCurve> shown = key_curves(region, rows);
     list.PushClipRect(min, max, true);
-    draw_names(c, list, shown, min, left);
+    draw_curve_names(c, list, shown, min, left);
     list.PopClipRect();
     std::erase_if(shown, [&](const KeyCurve& curve) { return !is_curve_shown(c, curve.row); });
     if (shown.empty()) {
@@ -251,7 +250,7 @@ void key_curve_view(Ctx& c, const Region& region, const std::vector<KeyRow>& row
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     c.note("Plot");
     if (ImGui::IsItemHovered()) {
-        const auto pressed = key_at(c, plot, ImGui::GetIO().MousePos);
+        const auto pressed = curve_key_at(c, plot, ImGui::GetIO().MousePos);
         if (pressed) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
         if (ImGui::IsMouseClicked(0)) {
             if (pressed)
@@ -263,7 +262,8 @@ void key_curve_view(Ctx& c, const Region& region, const std::vector<KeyRow>& row
         }
         zoom(c, plot);
     }
-    if (s.drag == KeysState::Drag::kKeys || s.drag == KeysState::Drag::kBox) go_on(c, plot);
+    if (s.drag == KeysState::Drag::kKeys || s.drag == KeysState::Drag::kBox)
+        go_on_in_curves(c, plot);
     list.PopClipRect();
 }
 

@@ -150,7 +150,7 @@ void tools(Ctx& c, const Region& region, const std::vector<KeyRow>& rows, ImVec2
 
 // The wheel with Ctrl zooms the frames about the mouse, in the curves also without; the middle
 // button pans.
-void navigate(Ctx& c, ImVec2 min, ImVec2 max) {
+void navigate_keys(Ctx& c, ImVec2 min, ImVec2 max) {
     KeysState& s = c.state.keys;
     const ImGuiIO& io = ImGui::GetIO();
     const bool over = ImGui::IsMouseHoveringRect(min, max) && ImGui::IsWindowHovered();
@@ -248,7 +248,7 @@ void keys_panel(Ctx& c, ImVec2 size) {
         end_panel(c);
         return;
     }
-    navigate(c, {min.x + key_names_width(c), min.y}, max);
+    navigate_keys(c, {min.x + key_names_width(c), min.y}, max);
     if (s.view == 0)
         key_sheet(c, *region, rows, min, max);
     else

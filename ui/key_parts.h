@@ -10,6 +10,8 @@
 
 namespace weft::ui {
 
+inline constexpr float kKeyRadius = 5;  ///< Of a key that is drawn, unscaled px.
+
 /// "Matte", "Light strength", "Zone 2 value".
 [[nodiscard]] std::string row_name(const KeyRowId& row);
 /// A curve: one of the numbers of a row.

@@ -9,9 +9,8 @@
 namespace weft::ui {
 namespace {
 
-constexpr float kRow = 22;    // unscaled
-constexpr float kReach = 7;   // from the mouse to a key that is pressed
-constexpr float kRadius = 5;  // of a key
+constexpr float kRow = 22;      // unscaled
+constexpr float kKeyReach = 7;  // from the mouse to a key that is pressed
 
 struct Sheet {
     const std::vector<KeyRow>& rows;
@@ -27,7 +26,7 @@ std::optional<KeyRef> key_at(const Ctx& c, const Sheet& sheet, ImVec2 p) {
     if (row < 0 || row >= static_cast<float>(sheet.rows.size())) return std::nullopt;
     const KeyRow& here = sheet.rows[static_cast<std::size_t>(row)];
     std::optional<KeyRef> best;
-    float nearest = c.theme.px(kReach);
+    float nearest = c.theme.px(kKeyReach);
     for (const KeyMark& key : here.keys) {
         const float apart = std::abs(sheet.scale.x_of(key.frame) - p.x);
         if (apart > nearest) continue;
@@ -73,7 +72,7 @@ void draw_names(Ctx& c, ImDrawList& list, const Sheet& sheet, float left, float 
 void draw_rows(Ctx& c, ImDrawList& list, const Sheet& sheet, float left, float right) {
     const Theme& t = c.theme;
     const KeysState& s = c.state.keys;
-    const float r = t.px(kRadius);
+    const float r = t.px(kKeyRadius);
     for (std::size_t k = 0; k < sheet.rows.size(); ++k) {
         const KeyRow& row = sheet.rows[k];
         const float y = sheet.y_of(k);

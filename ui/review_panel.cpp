@@ -10,7 +10,7 @@
 namespace weft::ui {
 namespace {
 
-using Row = QualityReport::Row;
+using ReportRow = QualityReport::Row;
 
 // The newest finished render of this shot, or null.
 const JobView* newest_render(const Ctx& c) {
@@ -21,7 +21,7 @@ const JobView* newest_render(const Ctx& c) {
 }
 
 // `from`: first row with a value.
-void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row::*plate,
+void graph(Ctx& c, ImVec2 size, const char* title, float ReportRow::*value, float ReportRow::*plate,
            std::size_t from = 0) {
     const Theme& t = c.theme;
     const auto& rows = c.view.report.rows;
@@ -31,7 +31,7 @@ void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row:
     text_in(list, t.strong, {at.x + t.px(10), at.y + t.px(4)}, {at.x + size.x, at.y + t.px(24)},
             t.text, title, 0);
     float most = 1;
-    for (const Row& row : rows)
+    for (const ReportRow& row : rows)
         most = std::max({most, row.*value, row.*plate});
     const float x0 = at.x + t.px(40), x1 = at.x + size.x - t.px(12);
     const float y0 = at.y + size.y - t.px(14), y1 = at.y + t.px(30);
@@ -45,7 +45,7 @@ void graph(Ctx& c, ImVec2 size, const char* title, float Row::*value, float Row:
         text_in(list, t.small, {at.x, y_of(v) - t.px(8)}, {x0 - t.px(6), y_of(v) + t.px(8)},
                 t.quiet, number_text(static_cast<double>(v), most < 10 ? 1 : 0).c_str(), 1);
     }
-    const auto line = [&](float Row::*which, ImU32 color, float width) {
+    const auto line = [&](float ReportRow::*which, ImU32 color, float width) {
         std::vector<ImVec2> points;
         for (std::size_t k = from; k < rows.size(); ++k)
             points.push_back({x_of(k), y_of(rows[k].*which)});
@@ -198,7 +198,7 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
 
 // Path of a measured frame; empty: none.
 std::string picture_of(const Ctx& c, int frame) {
-    for (const Row& row : c.view.report.rows)
+    for (const ReportRow& row : c.view.report.rows)
         if (row.frame == frame) return row.file;
     return {};
 }
@@ -299,14 +299,14 @@ void review_panel(Ctx& c, ImVec2 size) {
         case QualityReport::State::kDone: {
             const ImVec2 room = ImGui::GetContentRegionAvail();
             const float third = std::floor((room.x - 2 * t.gap) / 3);
-            graph(c, {third, room.y}, "Flicker, 8-bit steps a frame", &Row::flicker,
-                  &Row::flicker_plate, 1);
+            graph(c, {third, room.y}, "Flicker, 8-bit steps a frame", &ReportRow::flicker,
+                  &ReportRow::flicker_plate, 1);
             ImGui::SameLine(0, t.gap);
-            graph(c, {third, room.y}, "Brightness, 8-bit steps", &Row::brightness,
-                  &Row::brightness_plate);
+            graph(c, {third, room.y}, "Brightness, 8-bit steps", &ReportRow::brightness,
+                  &ReportRow::brightness_plate);
             ImGui::SameLine(0, t.gap);
-            graph(c, {third, room.y}, "Sharpness, % of the first frame", &Row::sharpness,
-                  &Row::sharpness_plate);
+            graph(c, {third, room.y}, "Sharpness, % of the first frame", &ReportRow::sharpness,
+                  &ReportRow::sharpness_plate);
             break;
         }
     }

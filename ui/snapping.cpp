@@ -7,7 +7,7 @@
 namespace weft::ui {
 namespace {
 
-constexpr float kReach = 8;  // screen px, unscaled
+constexpr float kSnapReach = 8;  // screen px, unscaled
 
 // Pixels of the plate's picture for one of the plate: it may be a proxy.
 std::optional<Vec2> picture_scale(const Ctx& c) {
@@ -19,7 +19,7 @@ std::optional<Vec2> picture_scale(const Ctx& c) {
 }
 
 float reach_px(const Ctx& c, const ViewMap& map, Vec2 scale) {
-    return c.theme.px(kReach) / std::max(map.zoom, kLeastZoom) * scale.x;
+    return c.theme.px(kSnapReach) / std::max(map.zoom, kLeastZoom) * scale.x;
 }
 
 }  // namespace

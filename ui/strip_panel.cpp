@@ -59,7 +59,7 @@ void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
     ImGui::PopFont();
 }
 
-void card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
+void strip_card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
     const Theme& t = c.theme;
     const bool frames = c.view.strip.kind == StripKind::kKeyframes;
     ImGui::SetCursorScreenPos(at);
@@ -94,8 +94,8 @@ void row_of_cards(Ctx& c, ImVec2 at, ImVec2 size, float aspect) {
     const float w =
         std::floor(std::min((size.x - gap * (count - 1)) / count, (size.y - t.px(20)) * aspect));
     for (std::size_t k = 0; k < cards.size(); ++k)
-        card(c, cards[k], static_cast<int>(k), {at.x + static_cast<float>(k) * (w + gap), at.y},
-             {w, size.y});
+        strip_card(c, cards[k], static_cast<int>(k),
+                   {at.x + static_cast<float>(k) * (w + gap), at.y}, {w, size.y});
 }
 
 // Settings as rows, each on the same frames. A button applies the setting; a picture goes to its

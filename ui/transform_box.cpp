@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/angles.h"
+
 namespace weft::ui {
 namespace {
 
-constexpr double kDegree = 3.14159265358979 / 180;
 constexpr double kLeastScale = 0.001, kMostScale = 1000;
 
 double at_or(const KeyedNumbers& keys, int frame, std::size_t which, double still) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "ui/angles.h"
 #include "ui/panels.h"
 #include "ui/transform_box.h"
 #include "ui/viewer.h"
@@ -12,8 +13,6 @@
 
 namespace weft::ui {
 namespace {
-
-constexpr double kDegree = 3.14159265358979 / 180;
 
 const RegionMatteView* matte_view(const Ctx& c) {
     for (const RegionMatteView& matte : c.view.mattes)
@@ -159,7 +158,7 @@ Quad<float> dragged_box(const Ctx& c, const PlacementNumbers& now, Vec2 mouse) {
     return out;
 }
 
-bool is_inside(const Quad<float>& box, Vec2 p) {
+bool is_in_box(const Quad<float>& box, Vec2 p) {
     for (std::size_t k = 0; k < 4; ++k) {
         const Vec2 side = box[(k + 1) % 4] - box[k], d = p - box[k];
         if (side.x * d.y - side.y * d.x < 0) return false;
@@ -201,7 +200,7 @@ Region without_drag(const Ctx& c, const Region& region) {
     return out;
 }
 
-void go_on(Ctx& c, const Region& region, Vec2 mouse) {
+void go_on_with_drag(Ctx& c, const Region& region, Vec2 mouse) {
     TransformState& s = c.state.transform;
     const Region before = without_drag(c, region);
     std::vector<Edit> edits = edits_of_placement(before, c.view.frame, dragged(c, mouse));
@@ -311,9 +310,9 @@ void transform_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             if (grip == Grip::kTaken) begin(c, *region, TransformState::Drag::kScale, mouse);
         }
     }
-    if (s.drag != TransformState::Drag::kNone) return go_on(c, *region, mouse);
+    if (s.drag != TransformState::Drag::kNone) return go_on_with_drag(c, *region, mouse);
     if (on_pivot || any_handle_held(c)) return;
-    const bool outside = box && !is_inside(*box, mouse);
+    const bool outside = box && !is_in_box(*box, mouse);
     if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
     if (!active || !ImGui::IsMouseClicked(0)) return;
     const ImGuiIO& io = ImGui::GetIO();

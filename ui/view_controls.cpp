@@ -121,7 +121,7 @@ void display_values(Ctx& c) {
             static_cast<DisplaySettings::Channel>((static_cast<int>(s.display.channel) + 1) % 5);
 }
 
-void layer_choice(Ctx& c) {
+void shown_layer_choice(Ctx& c) {
     const Theme& t = c.theme;
     const std::string layer(c.view.layer ? info_of(*c.view.layer).name : "result");
     view_value(c, "##Layer", layer, t.px(62), "Layer shown in the viewer", nullptr);
@@ -176,7 +176,7 @@ void view_controls(Ctx& c, ImVec2 min, ImVec2 max) {
     ImGui::SameLine(0, t.px(6));
     display_values(c);
     ImGui::SameLine();
-    layer_choice(c);
+    shown_layer_choice(c);
     ImGui::SameLine();
     screen_choice(c);
     ImGui::SameLine(0, t.px(10));

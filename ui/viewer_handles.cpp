@@ -1,5 +1,6 @@
 // Handles of pins and lamps in the viewer.
 #include "ui/viewer_handles.h"
+#include "ui/angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +12,10 @@
 namespace weft::ui {
 namespace {
 
-constexpr double kDegree = 3.14159265358979 / 180;
-
 PlatePoint plate_point(Vec2 p) {
     return {static_cast<double>(p.x), static_cast<double>(p.y)};
 }
-Vec2 vec(PlatePoint p) {
+Vec2 place_of(PlatePoint p) {
     return {static_cast<float>(p.x), static_cast<float>(p.y)};
 }
 
@@ -123,9 +122,9 @@ void pin_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     std::vector<CorrectionPin>& pins = c.state.pins;
     bool over = false;
     for (std::size_t k = 0; k < pins.size(); ++k) {
-        Vec2 to = vec(pins[k].to);
+        Vec2 to = place_of(pins[k].to);
         if (!(pins[k].from == pins[k].to))
-            line(c, map, vec(pins[k].from), to, c.theme.accent_hover);
+            line(c, map, place_of(pins[k].from), to, c.theme.accent_hover);
         const Grip grip = handle(c, map, "pin " + std::to_string(k + 1), to, hovered,
                                  c.theme.accent_hover, !(pins[k].from == pins[k].to));
         over |= grip != Grip::kNone;

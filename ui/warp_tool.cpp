@@ -53,14 +53,14 @@ bool is_placed(const Ctx& c, const Region& region) {
     return c.state.warp.places || !reference || *reference == c.view.frame;
 }
 
-void draw_curve(Ctx& c, const std::vector<ImVec2>& points) {
+void draw_warp_curve(Ctx& c, const std::vector<ImVec2>& points) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const int count = static_cast<int>(points.size());
     list.AddPolyline(points.data(), count, IM_COL32(0, 0, 0, 150), 0, c.theme.px(3));
     list.AddPolyline(points.data(), count, c.theme.accent_hover, 0, c.theme.px(1.25f));
 }
 
-void draw_grid(Ctx& c, const ViewMap& map, const GridWarp& warp) {
+void draw_warp_grid(Ctx& c, const ViewMap& map, const GridWarp& warp) {
     const WarpNet net(warp, points_on(warp, c.view.frame));
     // Many patches are small ones.
     const int steps = std::clamp(64 / std::max(warp.columns, warp.rows), 4, 16);
@@ -70,7 +70,7 @@ void draw_grid(Ctx& c, const ViewMap& map, const GridWarp& warp) {
             const auto at = net.on_grid(from + way * (static_cast<double>(k) / steps)).at;
             points.push_back(map.to_screen(on_frame(c, float_of(at))));
         }
-        draw_curve(c, points);
+        draw_warp_curve(c, points);
     };
     for (int j = 0; j <= warp.rows; ++j)
         curve({0, j}, {1, 0}, warp.columns);
@@ -243,7 +243,7 @@ void warp_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     const auto warp = warp_shown(c, *region);
     if (!warp) return;
     WarpToolState& s = c.state.warp;
-    draw_grid(c, map, *warp);
+    draw_warp_grid(c, map, *warp);
     if (s.box_from) return select_box(c, map, *warp);
     const bool on_handle = drag_handles(c, map, *region, *warp, hovered);
     const bool on_point = drag_points(c, map, *region, *warp, hovered && !on_handle);

@@ -17,7 +17,8 @@ std::string name_of(const std::string& path) {
 }
 
 // A large button with an icon, a title and a line below it.
-bool card(Ctx& c, const char* title, const char* below, const char* icon, ImVec2 size, bool main) {
+bool large_button(Ctx& c, const char* title, const char* below, const char* icon, ImVec2 size,
+                  bool main) {
     const Theme& t = c.theme;
     ImGui::PushID(title);
     const bool pressed = ImGui::InvisibleButton("##card", size);
@@ -57,14 +58,16 @@ void welcome(Ctx& c, ImVec2 size) {
     const float column = std::floor((width - t.px(32)) * 0.42f);
     const ImVec2 card_size(column, t.px(64));
     ImGui::SetCursorScreenPos({x, y});
-    if (card(c, "Open demo shot", "Ready to use: see a result in one click", icons::kPlay,
-             card_size, true))
+    if (large_button(c, "Open demo shot", "Ready to use: see a result in one click", icons::kPlay,
+                     card_size, true))
         c.commands.run("file.demo", c);
     ImGui::SetCursorScreenPos({x, y + t.px(74)});
-    if (card(c, "Open…", "Frames, a movie or a project", icons::kFolderOpen, card_size, false))
+    if (large_button(c, "Open…", "Frames, a movie or a project", icons::kFolderOpen, card_size,
+                     false))
         c.commands.run("file.open", c);
     ImGui::SetCursorScreenPos({x, y + t.px(148)});
-    if (card(c, "Take the tour", "Six steps, five minutes", icons::kSchool, card_size, false))
+    if (large_button(c, "Take the tour", "Six steps, five minutes", icons::kSchool, card_size,
+                     false))
         c.commands.run("help.tour", c);
     const ImVec2 drop_min(x, y + t.px(232)), drop_max(x + column, y + t.px(320));
     list.AddRect(drop_min, drop_max, t.off, t.px(5), 0, t.px(1));

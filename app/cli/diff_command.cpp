@@ -85,7 +85,7 @@ Expected<Outcome> compare(const DiffOptions& options) {
     return out;
 }
 
-Json number(double value) {
+Json number_or_null(double value) {
     return value >= 0 ? Json(value) : Json();
 }
 
@@ -100,10 +100,10 @@ Json likeness_json(const SequenceLikeness& likeness) {
              {"offset_y_px", f.features.patches > 0 ? Json(f.features.mean_y_px) : Json()},
              {"patches", f.features.patches},
              {"lost_patches", f.features.lost},
-             {"interior", number(f.interior)},
-             {"soft_edge", number(f.soft_edge)},
-             {"soft_edge_change", number(f.soft_edge_change)},
-             {"outside", number(f.outside)}});
+             {"interior", number_or_null(f.interior)},
+             {"soft_edge", number_or_null(f.soft_edge)},
+             {"soft_edge_change", number_or_null(f.soft_edge_change)},
+             {"outside", number_or_null(f.outside)}});
     }
     return {{"offset_px", all.offset_px},
             {"largest_offset_px", all.largest_offset_px},

@@ -89,7 +89,7 @@ Finding slurm_finding() {
             Standing::kAbsent};
 }
 
-std::string line_of(const Finding& f) {
+std::string finding_line(const Finding& f) {
     switch (f.standing) {
         case Standing::kOk:
             return "ok   " + f.what + ": " + f.state + "\n";
@@ -128,7 +128,7 @@ CommandResult doctor_command(const std::string& assets) {
                                            {"available", f.standing == Standing::kOk},
                                            {"good", !fix},
                                            {"advice", f.advice}});
-        answer.text += line_of(f);
+        answer.text += finding_line(f);
         if (fix) answer.exit = exit_code(ErrorCode::kUnreadable);
     }
     return answer;

@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string line_of(const Json& library) {
+std::string licence_line(const Json& library) {
     const std::string version = library["version"];
     return library["name"].get<std::string>() + (version.empty() ? "" : " " + version) + " (" +
            library["linked"].get<std::string>() + "): " + library["licence"].get<std::string>() +
@@ -29,7 +29,7 @@ Answer licences_answer() {
         for (const char* key :
              {"name", "version", "licence", "linked", "used_for", "obliges", "notice"})
             entry[key] = library[key];
-        answer.text += line_of(entry);
+        answer.text += licence_line(entry);
         answer.json["libraries"].push_back(std::move(entry));
     }
     const std::string movies = movie_library();

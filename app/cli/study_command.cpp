@@ -4,7 +4,7 @@
 namespace weft {
 namespace {
 
-std::string line(const StudyRun& run) {
+std::string run_line(const StudyRun& run) {
     const SequenceMeasures& m = run.measured.all;
     const auto above = above_floor(m);
     char text[200];
@@ -25,10 +25,10 @@ std::string line(const StudyRun& run) {
     return out + "\n";
 }
 
-std::string to_text(const StudyResult& study, const std::string& folder) {
+std::string study_text(const StudyResult& study, const std::string& folder) {
     std::string out;
     for (const StudyRun& run : study.runs)
-        out += line(run);
+        out += run_line(run);
     const StudyVerdict& v = study.verdict;
     char text[200];
     if (v.reduction_percent) {
@@ -48,7 +48,8 @@ CommandResult study_command(const StudyOptions& options, const RunOptions& run) 
     WEFT_TRY(study, run_study(options, cancel_on_signals(), progress_printer(run.progress)));
     for (const std::string& warning : study.warnings)
         print_warning(warning);
-    Answer answer{nlohmann::ordered_json::parse(study_json(study)), to_text(study, options.folder)};
+    Answer answer{nlohmann::ordered_json::parse(study_json(study)),
+                  study_text(study, options.folder)};
     answer.json["report"] = absolute_path(options.folder + "/report.html");
     return answer;
 }

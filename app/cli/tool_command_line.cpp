@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 // What a result can be compared with.
-void add_references(CLI::App& command, MeasureCommandOptions& options) {
+void add_comparisons(CLI::App& command, MeasureCommandOptions& options) {
     command
         .add_option("--truth", options.truth,
                     "The same scene rendered with the new material ('true/####.png')")
@@ -43,7 +43,7 @@ void add_measure(CLI::App& app, CommandResult& result) {
                      "Motion estimator without --motion: deepflow or farneback [deepflow]")
         ->check(one_of({"deepflow", "farneback"}))
         ->type_name("");
-    add_references(*command, *options);
+    add_comparisons(*command, *options);
     command
         ->add_option("--light-pictures", options->pictures,
                      "Folder for images of light and reflectance, before and after")

@@ -15,9 +15,9 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "weft.look/1";
+constexpr const char* kLookSchema = "weft.look/1";
 
 // Paths below `folder` become relative to it; others are unchanged.
 std::string relative_to(const std::string& path, const fs::path& folder, bool also_beside) {
@@ -61,9 +61,10 @@ Expected<Project> load_look(const std::string& path) {
                                                 ".");
     };
     WEFT_TRY(text, read_file(path, "The look"));
-    const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object() || json.value("schema", Json()) != kSchema || !json.contains("look"))
-        return bad(std::string("it is not of the schema ") + kSchema);
+    const OrderedJson json = OrderedJson::parse(text, nullptr, false);
+    if (!json.is_object() || json.value("schema", OrderedJson()) != kLookSchema ||
+        !json.contains("look"))
+        return bad(std::string("it is not of the schema ") + kLookSchema);
     auto look = project_from_json(json["look"].dump());
     if (!look) return fail_in(std::move(look).error(), path);
     if (look->regions.empty()) return bad("it has no region");
@@ -93,7 +94,7 @@ Status save_look(const std::string& path, const Project& project, const std::str
         return relative_to(file, fs::path(path).parent_path(), true);
     });
     WEFT_TRY(text, project_to_json(look));
-    const Json json{{"schema", kSchema}, {"look", Json::parse(text)}};
+    const OrderedJson json{{"schema", kLookSchema}, {"look", OrderedJson::parse(text)}};
     WEFT_CHECK_OK(make_folder_of(path, rule));
     return write_file_atomically(path, json.dump(2) + "\n", rule);
 }

@@ -35,7 +35,7 @@ std::optional<fs::path> new_folder(const std::string& path, const std::string& f
 }
 
 // The files that a path of the project names.
-std::vector<fs::path> files_of(const std::string& path) {
+std::vector<fs::path> moved_files_of(const std::string& path) {
     std::error_code none;
     if (fs::is_regular_file(path, none)) return {path};
     const auto pattern = SequencePattern::parse(path);
@@ -123,7 +123,7 @@ Expected<MovedFiles> copy_own_files(const Project& project, const std::string& f
         map_paths(resolve_paths(project, project_dir(from)), [&](const std::string& path) {
             const auto folder = new_folder(path, from, to, unsaved);
             if (!folder || moved.contains(path)) return path;
-            const std::vector<fs::path> files = files_of(path);
+            const std::vector<fs::path> files = moved_files_of(path);
             if (files.empty()) return path;
             const bool single = files.front() == path;
             fs::path to_path = *folder / fs::path(path).filename();

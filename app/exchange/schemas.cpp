@@ -9,25 +9,25 @@
 namespace weft {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json any_of_type(const char* type) {
+OrderedJson any_of_type(const char* type) {
     return {{"type", type}};
 }
 
-Json numbers(const ParameterInfo& info, std::size_t count) {
-    Json item{{"type", "number"}, {"minimum", info.min}, {"maximum", info.max}};
-    Json out{{"type", "array"}, {"items", std::move(item)}};
+OrderedJson numbers(const ParameterInfo& info, std::size_t count) {
+    OrderedJson item{{"type", "number"}, {"minimum", info.min}, {"maximum", info.max}};
+    OrderedJson out{{"type", "array"}, {"items", std::move(item)}};
     if (count > 0) out["minItems"] = out["maxItems"] = count;
     return out;
 }
 
-Json point() {
+OrderedJson point() {
     return {{"type", "array"}, {"items", any_of_type("number")}, {"minItems", 2}, {"maxItems", 2}};
 }
 
 // Keys over time whose values follow this schema.
-Json keys(Json value) {
+OrderedJson keys(OrderedJson value) {
     return {{"type", "array"},
             {"items",
              {{"type", "object"},
@@ -38,7 +38,7 @@ Json keys(Json value) {
                 {"interpolation", {{"enum", {"linear", "smooth", "hold"}}}}}}}}};
 }
 
-Json guides(const ParameterInfo& info) {
+OrderedJson guides(const ParameterInfo& info) {
     return {{"type", "array"},
             {"maxItems", static_cast<std::int64_t>(info.max)},
             {"items",
@@ -49,7 +49,7 @@ Json guides(const ParameterInfo& info) {
                 {"numbers", {{"type", "array"}, {"items", any_of_type("number")}}}}}}}};
 }
 
-Json lamps() {
+OrderedJson lamps() {
     return {{"type", "array"},
             {"items",
              {{"type", "object"},
@@ -59,12 +59,13 @@ Json lamps() {
                 {"keys", keys({{"type", "array"}, {"items", any_of_type("number")}})}}}}}};
 }
 
-Json grid_warp() {
-    Json control{{"type", "object"}, {"required", Json::array({"at"})}};
+OrderedJson grid_warp() {
+    OrderedJson control{{"type", "object"}, {"required", OrderedJson::array({"at"})}};
     for (const char* key : {"at", "left", "right", "up", "down"})
         control["properties"][key] = point();
-    const Json points{{"type", "array"}, {"items", control}};
-    const Json patches{{"type", "integer"}, {"minimum", 1}, {"maximum", GridWarp::kMostPatches}};
+    const OrderedJson points{{"type", "array"}, {"items", control}};
+    const OrderedJson patches{
+        {"type", "integer"}, {"minimum", 1}, {"maximum", GridWarp::kMostPatches}};
     return {
         {"type", "object"},
         {"required", {"columns", "rows", "corners"}},
@@ -82,8 +83,8 @@ Json grid_warp() {
               {"properties", {{"frame", any_of_type("integer")}, {"points", points}}}}}}}}}};
 }
 
-Json schema_of(const ParameterInfo& info) {
-    Json out;
+OrderedJson schema_of(const ParameterInfo& info) {
+    OrderedJson out;
     switch (info.kind) {
         case ParameterKind::kFlag:
             out = any_of_type("boolean");
@@ -140,11 +141,11 @@ Json schema_of(const ParameterInfo& info) {
 
 // The groups of a table become objects; keys without a group are added to `object`.
 template <class Owner>
-void add_table(Json& object, std::span<const Parameter<Owner>> table) {
+void add_table(OrderedJson& object, std::span<const Parameter<Owner>> table) {
     for (const Parameter<Owner>& parameter : table) {
-        Json* into = &object["properties"];
+        OrderedJson* into = &object["properties"];
         if (!parameter.group.empty()) {
-            Json& group = (*into)[std::string(parameter.group)];
+            OrderedJson& group = (*into)[std::string(parameter.group)];
             group["type"] = "object";
             into = &group["properties"];
         }
@@ -152,10 +153,10 @@ void add_table(Json& object, std::span<const Parameter<Owner>> table) {
     }
 }
 
-Json keyed_shape() {
-    const Json row{
+OrderedJson keyed_shape() {
+    const OrderedJson row{
         {"type", "array"}, {"items", any_of_type("number")}, {"minItems", 7}, {"maxItems", 7}};
-    const Json key{
+    const OrderedJson key{
         {"type", "object"},
         {"properties",
          {{"frame", any_of_type("integer")}, {"points", {{"type", "array"}, {"items", row}}}}},
@@ -168,11 +169,11 @@ Json keyed_shape() {
             {"required", {"keys"}}};
 }
 
-Json region_schema() {
-    Json region{{"type", "object"}, {"properties", Json::object()}};
+OrderedJson region_schema() {
+    OrderedJson region{{"type", "object"}, {"properties", OrderedJson::object()}};
     region["properties"]["id"] = {{"type", "integer"}, {"minimum", 1}};
     add_table(region, region_parameters());
-    Json matte = region["properties"]["matte"];
+    OrderedJson matte = region["properties"]["matte"];
     matte["properties"]["keyframes"] = {
         {"type", "array"},
         {"items",
@@ -190,20 +191,20 @@ Json region_schema() {
     matte["properties"]["shape"] = keyed_shape();
     region["properties"]["matte"] = matte;
     region["properties"]["holdouts"] = {{"type", "array"}, {"items", matte}};
-    Json zone{{"type", "object"}, {"properties", Json::object()}};
+    OrderedJson zone{{"type", "object"}, {"properties", OrderedJson::object()}};
     add_table(zone, zone_parameters());
     zone["properties"]["matte"] = matte;
     region["properties"]["zones"] = {{"type", "array"}, {"items", zone}};
-    const Json pin{{"type", "object"},
-                   {"properties", {{"from", point()}, {"to", point()}}},
-                   {"required", {"from", "to"}}};
+    const OrderedJson pin{{"type", "object"},
+                          {"properties", {{"from", point()}, {"to", point()}}},
+                          {"required", {"from", "to"}}};
     region["properties"]["corrections"] = {
         {"type", "array"},
         {"items",
          {{"type", "object"},
           {"properties",
            {{"frame", any_of_type("integer")}, {"pins", {{"type", "array"}, {"items", pin}}}}}}}};
-    const Json run{
+    const OrderedJson run{
         {"type", "array"}, {"items", any_of_type("integer")}, {"minItems", 5}, {"maxItems", 7}};
     region["properties"]["amendments"] = {{"type", "array"},
                                           {"items",
@@ -216,14 +217,15 @@ Json region_schema() {
     return region;
 }
 
-Json headed(const char* title, Json body) {
-    Json out{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
+OrderedJson headed(const char* title, OrderedJson body) {
+    OrderedJson out{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
     out.update(body);
     return out;
 }
 
-Json project_schema() {
-    Json project{{"type", "object"}, {"required", {"schema"}}, {"properties", Json::object()}};
+OrderedJson project_schema() {
+    OrderedJson project{
+        {"type", "object"}, {"required", {"schema"}}, {"properties", OrderedJson::object()}};
     project["properties"]["schema"] = {
         {"const", std::string(kProjectSchemaName) + "/" + std::to_string(kProjectSchemaVersion)}};
     add_table(project, project_parameters());
@@ -232,11 +234,11 @@ Json project_schema() {
     return headed("A Weft project", std::move(project));
 }
 
-Json actions_schema() {
-    const Json region{{"type", {"integer", "string"}}},
+OrderedJson actions_schema() {
+    const OrderedJson region{{"type", {"integer", "string"}}},
         text = any_of_type("string"), number = any_of_type("integer"),
-        object = any_of_type("object"), list = any_of_type("array"), any = Json::object();
-    const std::vector<std::pair<const char*, Json>> kActions{
+        object = any_of_type("object"), list = any_of_type("array"), any = OrderedJson::object();
+    const std::vector<std::pair<const char*, OrderedJson>> kActions{
         {"set_plate", {{"plate", object}}},
         {"set_output", {{"output", object}}},
         {"set_project_parameter", {{"key", text}, {"value", any}}},
@@ -253,10 +255,10 @@ Json actions_schema() {
         {"set_texture", {{"region", region}, {"texture", object}}},
         {"set_correction", {{"region", region}, {"frame", number}, {"pins", list}}},
         {"set_amendments", {{"region", region}, {"amendments", list}}}};
-    Json kinds = Json::array();
+    OrderedJson kinds = OrderedJson::array();
     for (const auto& [name, keys] : kActions) {
-        Json properties{{"action", {{"const", name}}}};
-        Json required = Json::array({"action"});
+        OrderedJson properties{{"action", {{"const", name}}}};
+        OrderedJson required = OrderedJson::array({"action"});
         for (const auto& [key, value] : keys.items()) {
             properties[key] = value;
             if (key != "index" || std::string_view(name) != "add_region") required.push_back(key);
@@ -266,8 +268,8 @@ Json actions_schema() {
                          {"required", required},
                          {"additionalProperties", false}});
     }
-    const Json actions{{"type", "array"}, {"items", {{"oneOf", kinds}}}};
-    const Json whole{
+    const OrderedJson actions{{"type", "array"}, {"items", {{"oneOf", kinds}}}};
+    const OrderedJson whole{
         {"type", "object"},
         {"properties", {{"schema", {{"const", "weft.actions/1"}}}, {"actions", actions}}},
         {"required", {"actions"}}};
@@ -275,8 +277,8 @@ Json actions_schema() {
 }
 
 // An entry of the report's forms.
-Json form_schema() {
-    const Json number = any_of_type("number"), text = any_of_type("string");
+OrderedJson form_schema() {
+    const OrderedJson number = any_of_type("number"), text = any_of_type("string");
     return {{"type", "object"},
             {"properties",
              {{"region", text},
@@ -298,36 +300,36 @@ Json form_schema() {
             {"required", {"region", "reference_frame", "source", "text", "amount"}}};
 }
 
-Json report_schema() {
-    const Json text = any_of_type("string"), number = any_of_type("number"),
-               texts{{"type", "array"}, {"items", any_of_type("string")}};
-    const Json frame{{"type", "object"},
-                     {"properties",
-                      {{"frame", any_of_type("integer")},
-                       {"path", text},
-                       {"seconds", number},
-                       {"skipped", any_of_type("boolean")},
-                       {"rolled_off_px", any_of_type("integer")},
-                       {"nonfinite_px", any_of_type("integer")},
-                       {"filled_px", any_of_type("integer")}}},
-                     {"required", {"frame", "path", "seconds"}}};
-    const Json texture{{"type", "object"},
-                       {"properties",
-                        {{"region", text},
-                         {"path", text},
-                         {"id", text},
-                         {"kind", text},
-                         {"author", text},
-                         {"licence", text}}},
-                       {"required", {"path", "id"}}};
-    const Json light{{"type", "object"},
-                     {"properties",
-                      {{"region", text},
-                       {"unsure", number},
-                       {"worst", number},
-                       {"worst_frame", any_of_type("integer")}}},
-                     {"required", {"region", "unsure", "worst", "worst_frame"}}};
-    const Json body{
+OrderedJson report_schema() {
+    const OrderedJson text = any_of_type("string"), number = any_of_type("number"),
+                      texts{{"type", "array"}, {"items", any_of_type("string")}};
+    const OrderedJson frame{{"type", "object"},
+                            {"properties",
+                             {{"frame", any_of_type("integer")},
+                              {"path", text},
+                              {"seconds", number},
+                              {"skipped", any_of_type("boolean")},
+                              {"rolled_off_px", any_of_type("integer")},
+                              {"nonfinite_px", any_of_type("integer")},
+                              {"filled_px", any_of_type("integer")}}},
+                            {"required", {"frame", "path", "seconds"}}};
+    const OrderedJson texture{{"type", "object"},
+                              {"properties",
+                               {{"region", text},
+                                {"path", text},
+                                {"id", text},
+                                {"kind", text},
+                                {"author", text},
+                                {"licence", text}}},
+                              {"required", {"path", "id"}}};
+    const OrderedJson light{{"type", "object"},
+                            {"properties",
+                             {{"region", text},
+                              {"unsure", number},
+                              {"worst", number},
+                              {"worst_frame", any_of_type("integer")}}},
+                            {"required", {"region", "unsure", "worst", "worst_frame"}}};
+    const OrderedJson body{
         {"type", "object"},
         {"properties",
          {{"schema", {{"const", "weft.report/1"}}},
@@ -351,20 +353,21 @@ Json report_schema() {
     return headed("The report of a Weft render", body);
 }
 
-Json error_schema() {
-    const Json text = any_of_type("string"), code = {{"type", "integer"}, {"minimum", 1}};
-    const Json error{{"type", "object"},
-                     {"properties",
-                      {{"code", code},
-                       {"name",
-                        {{"enum",
-                          {"render_failed", "usage", "unreadable", "missing_frames", "no_backend",
-                           "no_space", "refused", "differs", "interrupted", "terminated"}}}},
-                       {"message", text},
-                       {"field", text},
-                       {"remedy", text}}},
-                     {"required", {"code", "name", "message"}}};
-    const Json body{
+OrderedJson error_schema() {
+    const OrderedJson text = any_of_type("string"), code = {{"type", "integer"}, {"minimum", 1}};
+    const OrderedJson error{
+        {"type", "object"},
+        {"properties",
+         {{"code", code},
+          {"name",
+           {{"enum",
+             {"render_failed", "usage", "unreadable", "missing_frames", "no_backend", "no_space",
+              "refused", "differs", "interrupted", "terminated"}}}},
+          {"message", text},
+          {"field", text},
+          {"remedy", text}}},
+        {"required", {"code", "name", "message"}}};
+    const OrderedJson body{
         {"type", "object"},
         {"properties",
          {{"schema", {{"const", "weft.error/1"}}}, {"error", error}, {"exit_code", code}}},

@@ -10,15 +10,16 @@
 namespace weft {
 namespace {
 
-constexpr const char* kSchema = "weft.track/1";
+using Json = nlohmann::json;
+
+constexpr const char* kTrackSchema = "weft.track/1";
 
 Expected<CornerTrack> parse_json(const std::string& text) {
-    using Json = nlohmann::json;
     const Json file = Json::parse(text, nullptr, false);
-    if (!file.is_object() || file.value("schema", Json()) != kSchema || !file.contains("frames") ||
-        !file["frames"].is_array()) {
+    if (!file.is_object() || file.value("schema", Json()) != kTrackSchema ||
+        !file.contains("frames") || !file["frames"].is_array()) {
         return fail(ErrorCode::kUnreadable, std::string("It is not JSON of \"schema\": \"") +
-                                                kSchema + "\" with a list \"frames\"");
+                                                kTrackSchema + "\" with a list \"frames\"");
     }
     CornerTrack track;
     for (const Json& entry : file["frames"]) {
@@ -63,7 +64,8 @@ Expected<CornerTrack> read_corner_track(const std::string& path,
 
 Status write_corner_track(const std::string& path, const CornerTrack& track,
                           const WriteRule& rule) {
-    nlohmann::ordered_json file{{"schema", kSchema}, {"frames", nlohmann::ordered_json::array()}};
+    nlohmann::ordered_json file{{"schema", kTrackSchema},
+                                {"frames", nlohmann::ordered_json::array()}};
     for (const auto& [frame, quad] : track) {
         nlohmann::ordered_json corners = nlohmann::ordered_json::array();
         for (const glm::dvec2 corner : quad) {

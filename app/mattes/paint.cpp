@@ -7,6 +7,7 @@
 
 #include "engine/core/smooth_step.h"
 #include "engine/mask/shape_matte.h"
+#include "engine/motion/view_mat.h"
 
 namespace weft {
 namespace {
@@ -21,11 +22,6 @@ float profile(float distance, float radius, float hardness) {
     const float soft = std::max(1.0f, radius * (1.0f - hardness));
     const float t = std::clamp((radius + 0.5f - distance) / soft, 0.0f, 1.0f);
     return smooth_rise(t);
-}
-
-cv::Mat mat_of(const Matte& matte) {
-    return {matte.height(), matte.width(), CV_8UC1, const_cast<std::uint8_t*>(matte.data()),
-            static_cast<std::size_t>(matte.width())};
 }
 
 Matte from_mat(const cv::Mat& mat) {
@@ -51,7 +47,7 @@ Matte merged(const Matte& before, const cv::Mat& area, bool subtract) {
 // Signed distance to the edge at half coverage: positive inside.
 cv::Mat signed_distance(const Matte& matte) {
     cv::Mat inside, outside, in_distance, out_distance;
-    cv::threshold(mat_of(matte), inside, 127, 255, cv::THRESH_BINARY);
+    cv::threshold(as_mat(matte), inside, 127, 255, cv::THRESH_BINARY);
     cv::bitwise_not(inside, outside);
     cv::distanceTransform(inside, in_distance, cv::DIST_L2, cv::DIST_MASK_5);
     cv::distanceTransform(outside, out_distance, cv::DIST_L2, cv::DIST_MASK_5);
@@ -142,7 +138,7 @@ Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
 
 Matte fill_polygon(const Matte& before, const std::vector<Vec2>& points, bool subtract) {
     if (points.size() < 3) return before;
-    return merged(before, mat_of(polygon_matte(points, before.size())), subtract);
+    return merged(before, as_mat(polygon_matte(points, before.size())), subtract);
 }
 
 Matte flood_select(const Matte& before, ViewU8x3 picture, Vec2i seed, int tolerance,
@@ -168,7 +164,7 @@ Matte flood_select(const Matte& before, ViewU8x3 picture, Vec2i seed, int tolera
 Matte changed_area(const Matte& before, const Matte& after) {
     constexpr int kAround_px = 4;
     cv::Mat changed, wide;
-    cv::compare(mat_of(before), mat_of(after), changed, cv::CMP_NE);
+    cv::compare(as_mat(before), as_mat(after), changed, cv::CMP_NE);
     cv::dilate(
         changed, wide,
         cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kAround_px + 1, 2 * kAround_px + 1}));
@@ -185,7 +181,7 @@ Matte grow_matte(const Matte& before, float px) {
 Matte feather_matte(const Matte& before, float px) {
     if (px <= 0) return before;
     cv::Mat soft;
-    cv::GaussianBlur(mat_of(before), soft, {0, 0}, px * 0.5);
+    cv::GaussianBlur(as_mat(before), soft, {0, 0}, px * 0.5);
     return from_mat(soft);
 }
 

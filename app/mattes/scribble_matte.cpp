@@ -5,17 +5,14 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "engine/motion/view_mat.h"
+
 namespace weft {
 namespace {
 
 // Longest sides: where the whole crop is cut, and where the edge found there is cut again.
 constexpr int kCoarsePx = 192, kFinePx = 512;
 constexpr int kBorder = 2;  // pixels at the border of a crop that may be certain
-
-cv::Mat mat_of(const Matte& matte) {
-    return {matte.height(), matte.width(), CV_8UC1, const_cast<std::uint8_t*>(matte.data()),
-            static_cast<std::size_t>(matte.width())};
-}
 
 cv::Mat scaled(const cv::Mat& from, double scale) {
     cv::Mat out;
@@ -169,18 +166,18 @@ cv::Rect box_around(const cv::Mat& marks) {
 
 Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
                         const Matte& drop) {
-    if (cv::countNonZero(mat_of(keep) > 127) == 0) return before;
+    if (cv::countNonZero(as_mat(keep) > 127) == 0) return before;
     const cv::Mat all(picture.height(), picture.width(), CV_8UC3,
                       const_cast<std::uint8_t*>(picture.data()),
                       static_cast<std::size_t>(picture.stride()));
     const cv::Rect everything(0, 0, before.width(), before.height());
-    cv::Rect box = box_around(cv::max(mat_of(keep), mat_of(drop)));
-    const bool painted = cv::countNonZero(mat_of(before) > 127) > 0;
+    cv::Rect box = box_around(cv::max(as_mat(keep), as_mat(drop)));
+    const bool painted = cv::countNonZero(as_mat(before) > 127) > 0;
     cv::Mat coarse, background, foreground;
     Crop crop;
     const auto cut = [&] {
-        crop = {all(box),          mat_of(keep)(box),
-                mat_of(drop)(box), mat_of(before)(box),
+        crop = {all(box),          as_mat(keep)(box),
+                as_mat(drop)(box), as_mat(before)(box),
                 box == everything, painted};
         // grabCut's k-means is random: a fixed seed gives equal mattes for equal scribbles
         cv::setRNGSeed(1);

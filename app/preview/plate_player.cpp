@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kThreads = 2;
 
-std::size_t bytes_of(const PicturePtr& picture) {
+std::size_t picture_bytes(const PicturePtr& picture) {
     return picture->size_bytes();
 }
 
@@ -81,8 +81,8 @@ bool PlatePlayer::next_frame(int& frame) {
         if (errors_.contains(candidate)) continue;
         const auto found = pictures_.find(candidate);
         if (found != pictures_.end()) {
-            if (bytes_of(found->second) > room) return false;
-            room -= bytes_of(found->second);
+            if (picture_bytes(found->second) > room) return false;
+            room -= picture_bytes(found->second);
             continue;
         }
         const std::size_t typical = pictures_.empty() ? 0 : bytes_ / pictures_.size();
@@ -112,7 +112,7 @@ std::vector<PicturePtr> PlatePlayer::make_room(std::size_t bytes) {
     std::sort(order.begin(), order.end());
     for (; !order.empty() && bytes_ + bytes > budget_bytes_; order.pop_back()) {
         const auto worst = pictures_.find(order.back().second);
-        bytes_ -= bytes_of(worst->second);
+        bytes_ -= picture_bytes(worst->second);
         gone.push_back(std::move(worst->second));
         pictures_.erase(worst);
     }
@@ -133,8 +133,8 @@ void PlatePlayer::keep(int frame, Expected<PlateFrame> decoded) {
         errors_[frame] = decoded.error().text();
         return;
     }
-    gone = make_room(bytes_of(picture));
-    bytes_ += bytes_of(picture);
+    gone = make_room(picture_bytes(picture));
+    bytes_ += picture_bytes(picture);
     pictures_[frame] = std::move(picture);
 }
 

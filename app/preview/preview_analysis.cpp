@@ -1,6 +1,7 @@
 // The analysis thread of the preview.
 #include "app/base/background.h"
 #include "app/preview/preview_impl.h"
+#include "engine/core/stopwatch.h"
 #include "engine/mask/plate_edge.h"
 #include "engine/pipeline/analyse.h"
 #include "engine/pipeline/focus_pass.h"
@@ -11,10 +12,6 @@
 
 namespace weft {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 ShotPlan plan_for(const OpenedShot& opened, std::vector<int> frames) {
     ShotPlan plan = opened.shot->plan;

@@ -6,13 +6,10 @@
 #include "app/preview/preview_stages.h"
 #include "engine/color/color_space.h"
 #include "engine/compute/backend_registry.h"
+#include "engine/core/stopwatch.h"
 
 namespace weft {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::map<RegionId, int> references_of(const Shot& shot) {
     std::map<RegionId, int> out;

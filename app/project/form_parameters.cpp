@@ -6,9 +6,10 @@ namespace weft {
 
 namespace {
 
+using R = Region;
+
 std::vector<Parameter<Region>> amount_parameters() {
     using parameter_entry::entry;
-    using R = Region;
     return {
         entry<R, &R::form, &FormParams::roundness>(
             {.group = "form",
@@ -39,7 +40,6 @@ std::vector<Parameter<Region>> amount_parameters() {
 
 std::vector<Parameter<Region>> form_parameters() {
     using parameter_entry::entry;
-    using R = Region;
     std::vector<Parameter<Region>> out{
         entry<R, &R::form, &FormParams::position>(
             {.group = "form",

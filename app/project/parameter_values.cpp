@@ -58,7 +58,7 @@ std::string_view type_name(ParameterKind kind) {
     return "";
 }
 
-std::string shown(const ParameterValue& value) {
+std::string shown_value(const ParameterValue& value) {
     struct Show {
         std::string operator()(std::monostate) const { return "nothing"; }
         std::string operator()(bool v) const { return v ? "true" : "false"; }
@@ -92,8 +92,8 @@ std::string shown(const ParameterValue& value) {
 
 tl::unexpected<Error> wrong(const ParameterInfo& info, const ParameterValue& value,
                             const std::string& wanted) {
-    return fail(ErrorCode::kUsage,
-                fmt::format("{} must be {}, not {}", display_name(info), wanted, shown(value)));
+    return fail(ErrorCode::kUsage, fmt::format("{} must be {}, not {}", display_name(info), wanted,
+                                               shown_value(value)));
 }
 
 std::string range_text(const ParameterInfo& info) {
@@ -376,7 +376,7 @@ std::string format_parameter(const ParameterInfo& info, const ParameterValue& va
         return out;
     }
     const auto* numbers = std::get_if<std::vector<double>>(&value);
-    if (!numbers) return shown(value);
+    if (!numbers) return shown_value(value);
     if (info.kind == ParameterKind::kFrames) {
         if (std::is_sorted(numbers->begin(), numbers->end()))
             return format_frame_list(std::vector<int>(numbers->begin(), numbers->end()));

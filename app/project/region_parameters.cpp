@@ -7,9 +7,9 @@ namespace weft {
 namespace {
 
 using namespace parameter_entry;
+using R = Region;
 
 std::vector<Parameter<Region>> make_region_table() {
-    using R = Region;
     std::vector<Parameter<Region>> table{
         entry<R, &R::name>({.key = "name", .flag = "--name", .help = "Name of the region"}),
         entry<R, &R::enabled>(

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <mutex>
 
 #include "app/render/burn_in.h"
@@ -10,6 +9,7 @@
 #include "app/render/st_map_files.h"
 #include "app/render/version_up.h"
 #include "engine/core/parallel.h"
+#include "engine/core/stopwatch.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
@@ -18,8 +18,6 @@
 
 namespace weft {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 Status write_frame(const JobSetup& setup, int frame, const std::string& path,
                    const RenderedFrame& rendered, const PlateFrame& plate) {
@@ -187,7 +185,7 @@ Status render_frames(const FrameInputs& in, const std::string& movie_path,
             WEFT_TRY(shown, movie->display(*in.setup.shot, result));
             *display = std::move(shown);
         }
-        result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        result.seconds = seconds_since(start);
         const std::lock_guard lock(progress_mutex);
         ++done;
         if (progress) {

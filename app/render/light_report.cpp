@@ -37,7 +37,7 @@ std::vector<int> some_of(const std::vector<int>& frames) {
     return out;
 }
 
-double rounded(double value) {
+double to_thousandths(double value) {
     return std::round(1e3 * value) / 1e3;
 }
 
@@ -90,8 +90,8 @@ std::optional<std::string> unsure_light_warning(const LightReport& light) {
 
 nlohmann::ordered_json light_json(const LightReport& light) {
     return {{"region", light.region},
-            {"unsure", rounded(light.unsure)},
-            {"worst", rounded(light.worst)},
+            {"unsure", to_thousandths(light.unsure)},
+            {"worst", to_thousandths(light.worst)},
             {"worst_frame", light.worst_frame}};
 }
 

@@ -22,7 +22,7 @@ constexpr std::int64_t kRegionBytes = 90ll << 20, kFinalBytes = 130ll << 20;
 constexpr double kScaling = 0.75, kMeasuredOn = 2;
 
 // Disk space of all layers.
-constexpr double kLayersBytesPerPixel = 8;
+constexpr double kWrittenLayersBytesPerPixel = 8;
 
 double bytes_per_pixel(std::string_view extension) {
     if (extension == "exr") return 7.5;
@@ -81,7 +81,7 @@ RenderEstimate estimate_render(const EstimateInputs& in) {
         (in.quality == Quality::kFinal ? kFinalBytes : 0);
     out.disk_bytes = static_cast<std::int64_t>(
         static_cast<double>(in.frames) * pixels *
-        (bytes_per_pixel(in.extension) + (in.layers ? kLayersBytesPerPixel : 0)));
+        (bytes_per_pixel(in.extension) + (in.layers ? kWrittenLayersBytesPerPixel : 0)));
     return out;
 }
 

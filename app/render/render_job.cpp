@@ -7,7 +7,6 @@
 #endif
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <opencv2/core/utility.hpp>
 
@@ -21,6 +20,7 @@
 #include "app/shot/frame_plan.h"
 #include "engine/core/parallel.h"
 #include "engine/core/setting.h"
+#include "engine/core/stopwatch.h"
 #include "engine/pipeline/analyse.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
@@ -29,12 +29,6 @@
 
 namespace weft {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 template <class F>
 Status timed(double& seconds, F&& work) {

@@ -9,29 +9,29 @@
 
 #include "app/shot/fingerprint_file.h"
 #include "engine/core/parallel.h"
+#include "engine/core/stopwatch.h"
 #include "engine/media/atomic_file.h"
 
 namespace weft {
-namespace {
-
-namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-// The coarsest clock of a file system in use, FAT's, counts in steps of two seconds.
-constexpr std::chrono::seconds kStep{2};
-
-struct Known {
+struct KnownFile {
     Fingerprint print;
     bool checked = false;         // its sample was read by this process
     Clock::time_point read = {};  // when this process read its contents
 };
 
 // The files of one folder.
-struct Folder {
-    std::map<std::string, Known> files;
+struct KnownFolder {
+    std::map<std::string, KnownFile> files;
     bool loaded = false;
     bool changed = false;  // since it was loaded or saved
 };
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The coarsest clock of a file system in use, FAT's, counts in steps of two seconds.
+constexpr std::chrono::seconds kStep{2};
 
 // The device is left out, which another machine or the next start may number in another way.
 bool same_file(const FileStamp& a, const FileStamp& b) {
@@ -58,7 +58,7 @@ std::string file_for(const std::string& root, const std::string& folder) {
     return (fs::path(root) / hasher.text(folder).finish().hex()).string();
 }
 
-void write(const std::string& root, const std::string& path, const Folder& folder) {
+void write(const std::string& root, const std::string& path, const KnownFolder& folder) {
     std::error_code ignored;
     fs::create_directories(root, ignored);
     const std::string file = file_for(root, path);
@@ -76,12 +76,12 @@ struct Fingerprints::State {
     std::string root;  // empty: not kept
     StampFn stamp;
     std::mutex mutex;
-    std::map<std::string, Folder> folders;  // by absolute path
+    std::map<std::string, KnownFolder> folders;  // by absolute path
     std::atomic<std::int64_t> files_read{0};
 
     // With the lock.
-    Folder& folder_at(const std::string& path) {
-        Folder& folder = folders[path];
+    KnownFolder& folder_at(const std::string& path) {
+        KnownFolder& folder = folders[path];
         if (folder.loaded) return folder;
         folder.loaded = true;
         if (root.empty()) return folder;
@@ -89,20 +89,20 @@ struct Fingerprints::State {
             folder.files[name].print = print;
         return folder;
     }
-    std::optional<Known> known(const fs::path& path) {
+    std::optional<KnownFile> known(const fs::path& path) {
         const std::lock_guard lock(mutex);
         const auto& files = folder_at(path.parent_path().string()).files;
         const auto at = files.find(path.filename().string());
         return at == files.end() ? std::nullopt : std::optional(at->second);
     }
-    void keep(const fs::path& path, const Known& found, bool is_new) {
+    void keep(const fs::path& path, const KnownFile& found, bool is_new) {
         const std::lock_guard lock(mutex);
-        Folder& folder = folder_at(path.parent_path().string());
+        KnownFolder& folder = folder_at(path.parent_path().string());
         folder.files[path.filename().string()] = found;
         folder.changed = folder.changed || is_new;
     }
     // Errors: as hash_of_contents().
-    Status read(const std::string& path, Known& into) {
+    Status read(const std::string& path, KnownFile& into) {
         into.print.settled = is_older_than_step(into.print.stamp);
         into.read = Clock::now();
         WEFT_TRY(contents, hash_of_contents(path));
@@ -124,8 +124,8 @@ Expected<Fingerprint> Fingerprints::State::find(const std::string& path, bool wi
         WEFT_TRY(none, hash_of_contents(path));
         return Fingerprint{{}, none, none, none, false};
     }
-    const std::optional<Known> before = known(whole);
-    Known found;
+    const std::optional<KnownFile> before = known(whole);
+    KnownFile found;
     found.print.stamp = *now;
     found.checked = true;
     const bool same_stamp = before && same_file(before->print.stamp, *now);

@@ -10,6 +10,13 @@
 #include "engine/core/setting.h"
 
 namespace weft {
+struct WatchedFile {
+    FileStamp stamp;  // state when the run first relied on it
+    bool read = false;
+    bool changed_before_read = false;
+    std::optional<Hash128> hash;  // hash at the first read
+};
+
 namespace {
 
 bool same_but_for_rights(const FileStamp& a, const FileStamp& b) {
@@ -17,14 +24,7 @@ bool same_but_for_rights(const FileStamp& a, const FileStamp& b) {
            std::tie(b.bytes, b.modified_ns, b.device, b.inode);
 }
 
-struct Watched {
-    FileStamp stamp;  // state when the run first relied on it
-    bool read = false;
-    bool changed_before_read = false;
-    std::optional<Hash128> hash;  // hash at the first read
-};
-
-bool is_changed(const std::string& path, const Watched& watched) {
+bool is_changed(const std::string& path, const WatchedFile& watched) {
     if (watched.changed_before_read) return true;
     const auto now = stamp_of(path);
     if (!now || now->bytes != watched.stamp.bytes) return true;
@@ -39,7 +39,7 @@ bool is_changed(const std::string& path, const Watched& watched) {
 struct InputWatch::State {
     std::shared_ptr<Fingerprints> known;  // may be null
     mutable std::mutex mutex;
-    std::map<std::string, Watched> files;
+    std::map<std::string, WatchedFile> files;
 };
 
 InputWatch::InputWatch(std::shared_ptr<Fingerprints> files) : state_(std::make_unique<State>()) {
@@ -61,7 +61,7 @@ void InputWatch::before_read(const std::string& path) {
         const auto stamp = stamp_of(path);
         if (!stamp) return;
         const bool relied_on = known != state_->files.end();
-        Watched& file = state_->files[path];
+        WatchedFile& file = state_->files[path];
         // The original content is gone, so it cannot be compared.
         file.changed_before_read = relied_on && !same_but_for_rights(*stamp, file.stamp);
         file.stamp = *stamp;

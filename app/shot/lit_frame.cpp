@@ -15,7 +15,7 @@ constexpr double kDark = 0.03;        // mean luminance: only darker frames are 
 constexpr double kTooDark = 1.0 / 3;  // of the shot's light
 constexpr double kLit = 0.8;          // of the shot's light
 constexpr double kUsual = 0.9;        // quantile of the frames' light that is the shot's
-constexpr std::size_t kLooks = 24;
+constexpr std::size_t kLitLooks = 24;
 constexpr float kBurnt = 0.985f;    // display-encoded; less is no white
 constexpr double kAllBurnt = 0.97;  // share of the pixels
 constexpr int kColumns = 160;       // of the grid that is looked at
@@ -72,7 +72,7 @@ std::optional<int> lit_frame(const CachedReader& plate, int frame,
                              const std::vector<int>& candidates, VisibilityCache* memory) {
     const auto here = light_of_frame(plate, frame, memory);
     if (!here || !is_doubtful(*here) || candidates.size() < 2) return std::nullopt;
-    const std::vector<int> looks = spread(candidates, kLooks);
+    const std::vector<int> looks = spread(candidates, kLitLooks);
     std::vector<double> light;
     for (const int look : looks)
         light.push_back(light_of_frame(plate, look, memory).value_or(0.0));

@@ -4,16 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "engine/core/wrap.h"
+
 namespace weft {
 namespace {
 
 constexpr std::size_t kMostTexels = 1 << 18;
 constexpr std::array<Vec2i, 4> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-
-int wrapped(int v, int n) {
-    v %= n;
-    return v < 0 ? v + n : v;
-}
 
 // The texels of a synthesized plane; coordinates wrap.
 class Texels {

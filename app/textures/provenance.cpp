@@ -6,7 +6,7 @@
 namespace weft {
 namespace {
 
-int wrapped(float v, int n) {
+int wrapped_texel(float v, int n) {
     const int k = static_cast<int>(std::floor(v)) % n;
     return k < 0 ? k + n : k;
 }
@@ -66,8 +66,8 @@ Provenance::Answer Provenance::at(Vec2 p) const {
         out.histories = {{track_frame, 1}};
     }
     if (plane && std::isfinite(out.texel.x) && std::isfinite(out.texel.y)) {
-        const int u = wrapped(out.texel.x, plane->source.width());
-        const int v = wrapped(out.texel.y, plane->source.height());
+        const int u = wrapped_texel(out.texel.x, plane->source.width());
+        const int v = wrapped_texel(out.texel.y, plane->source.height());
         const std::int32_t* from = plane->source.pixel(u, v);
         out.in_sample = Vec2i(from[0], from[1]);
         constexpr int kSeam = 48;

@@ -21,7 +21,7 @@ double nice_step(double span, int most) {
     return 10 * power;
 }
 
-std::string number(double v) {
+std::string number_text(double v) {
     return fmt::format("{:g}", std::round(v * 1e6) / 1e6);
 }
 
@@ -109,7 +109,7 @@ class LinePlot {
         return fmt::format(
             "<line class=\"grid\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>"
             "<text class=\"tick\" text-anchor=\"end\" x=\"{}\" y=\"{:.1f}\">{}</text>",
-            kLeft, kWidth - kRight, y, y, kLeft - 6, y + 4, number(value));
+            kLeft, kWidth - kRight, y, y, kLeft - 6, y + 4, number_text(value));
     }
 
     [[nodiscard]] std::string grid() const {
@@ -130,7 +130,7 @@ class LinePlot {
         for (double x = std::ceil(x_.low / step) * step; x <= x_.high; x += step) {
             out += fmt::format(
                 "<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{}\">{}</text>",
-                px(x), kHeight - kBottom + 16, number(x));
+                px(x), kHeight - kBottom + 16, number_text(x));
         }
         return out + fmt::format(
                          "<text class=\"label\" text-anchor=\"middle\" x=\"{}\" y=\"{}\">{}</text>"

@@ -34,11 +34,11 @@ const Constants& constants() {
 
 // y = value + t (slope + t curvature), t = x − start: the parabola through both ends and the middle
 // of a segment.
-struct Segment {
+struct Parabola {
     float start, value, slope, curvature;
 
     template <class F>
-    static Segment of(long double x0, long double x1, F&& exact) {
+    static Parabola of(long double x0, long double x1, F&& exact) {
         const long double h = x1 - x0;
         const long double y0 = exact(x0), middle = exact(x0 + h / 2), y1 = exact(x1);
         const long double curvature = 2 * (y0 - 2 * middle + y1) / (h * h);
@@ -51,13 +51,13 @@ struct Segment {
     }
 };
 
-long double decode_exactly(long double v) {
+long double decode_cineon_exactly(long double v) {
     const Constants& c = constants();
     const long double raw = v < 0 ? c.at_zero + v * c.slope : above_base(v * kCodes);
     return (raw - c.black) * c.gain;
 }
 
-long double encode_exactly(long double linear) {
+long double encode_cineon_exactly(long double linear) {
     const Constants& c = constants();
     const long double raw = linear / c.gain + c.black;
     if (raw < c.at_zero) return (raw - c.at_zero) / c.slope;
@@ -70,17 +70,18 @@ class DecodeTable {
   public:
     DecodeTable() {
         for (std::size_t i = 0; i < kSegments; ++i)
-            segments_[i] = Segment::of(static_cast<long double>(i) / kSegments,
-                                       static_cast<long double>(i + 1) / kSegments, decode_exactly);
+            segments_[i] =
+                Parabola::of(static_cast<long double>(i) / kSegments,
+                             static_cast<long double>(i + 1) / kSegments, decode_cineon_exactly);
     }
     [[nodiscard]] float operator()(float v) const {
         if (v >= 0 && v < 1) return segments_[static_cast<std::size_t>(v * kSegments)].at(v);
-        return std::isfinite(v) ? static_cast<float>(decode_exactly(v)) : v;
+        return std::isfinite(v) ? static_cast<float>(decode_cineon_exactly(v)) : v;
     }
 
   private:
     static constexpr std::size_t kSegments = 1024;
-    std::array<Segment, kSegments> segments_{};
+    std::array<Parabola, kSegments> segments_{};
 };
 
 // The logarithm's argument is divided into octaves of 64 segments, found by the leading bits.
@@ -88,7 +89,7 @@ class EncodeTable {
   public:
     EncodeTable() {
         for (std::uint32_t i = 0; i < kSegments; ++i) {
-            segments_[i] = Segment::of(
+            segments_[i] = Parabola::of(
                 std::bit_cast<float>(kLowest + (i << kShift)),
                 std::bit_cast<float>(kLowest + ((i + 1) << kShift)),
                 [](long double raw) { return (kWhite + std::log10(raw) / kPerCode) / kCodes; });
@@ -100,7 +101,7 @@ class EncodeTable {
         const std::uint32_t i = (std::bit_cast<std::uint32_t>(raw) - kLowest) >> kShift;
         if (raw > 0 && i < kSegments && raw >= static_cast<float>(c.at_zero))
             return segments_[i].at(raw);
-        return std::isfinite(linear) ? static_cast<float>(encode_exactly(linear)) : linear;
+        return std::isfinite(linear) ? static_cast<float>(encode_cineon_exactly(linear)) : linear;
     }
 
   private:
@@ -108,7 +109,7 @@ class EncodeTable {
     static constexpr std::uint32_t kShift = 23 - 6;
     static constexpr std::uint32_t kLowest = static_cast<std::uint32_t>(127 + kFirst) << 23;
     static constexpr std::uint32_t kSegments = static_cast<std::uint32_t>(kLast - kFirst) << 6;
-    std::array<Segment, kSegments> segments_{};
+    std::array<Parabola, kSegments> segments_{};
 };
 
 }  // namespace

@@ -22,14 +22,14 @@ bool is_built_in(const std::string& name) {
 }
 
 // A curve for single values, in place; null: none.
-using Curve = void (*)(std::span<float>);
+using CurveFn = void (*)(std::span<float>);
 
-Curve decoding(const std::string& built_in) {
+CurveFn decoding(const std::string& built_in) {
     if (built_in == "linear") return nullptr;
     return built_in == "srgb" ? decode_srgb : decode_cineon;
 }
 
-Curve encoding(const std::string& built_in) {
+CurveFn encoding(const std::string& built_in) {
     if (built_in == "linear") return nullptr;
     return built_in == "srgb" ? encode_srgb : encode_cineon;
 }
@@ -37,7 +37,7 @@ Curve encoding(const std::string& built_in) {
 // Converts between two spaces with the same primaries, through linear light.
 class CurveTransform final : public ColorTransform {
   public:
-    CurveTransform(Curve decode, Curve encode) : decode_(decode), encode_(encode) {}
+    CurveTransform(CurveFn decode, CurveFn encode) : decode_(decode), encode_(encode) {}
 
     void apply(ImageView<float, 3> rgb) const override {
         if (identity()) return;
@@ -52,7 +52,7 @@ class CurveTransform final : public ColorTransform {
     bool identity() const override { return !decode_ && !encode_; }
 
   private:
-    Curve decode_, encode_;
+    CurveFn decode_, encode_;
 };
 
 class Chain final : public ColorTransform {

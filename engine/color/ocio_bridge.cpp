@@ -19,7 +19,7 @@ namespace {
 
 namespace ocio = OCIO_NAMESPACE;
 
-constexpr int kBandRows = 16;
+constexpr int kOcioBandRows = 16;
 
 // Names of scene-linear Rec.709/sRGB in common configs: ACES 2.x and 1.x studio and CG configs and
 // their aliases, ACES 1.0-1.2, Blender's filmic, and the OpenColorIO samples.
@@ -67,7 +67,7 @@ class OcioTransform final : public ColorTransform {
 
     void apply(ImageView<float, 3> rgb) const override {
         if (identity_ || rgb.empty()) return;
-        parallel_rows(rgb.height(), kBandRows, [&](int y0, int y1) {
+        parallel_rows(rgb.height(), kOcioBandRows, [&](int y0, int y1) {
             std::vector<Nonfinite> nonfinite;
             collect_nonfinite(rgb, y0, y1, nonfinite);
             ocio::PackedImageDesc band(rgb.row(y0), rgb.width(), y1 - y0, 3, ocio::BIT_DEPTH_F32,

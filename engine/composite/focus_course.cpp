@@ -13,8 +13,8 @@ constexpr double kLeastError = 0.03, kWantedError = 0.03;
 constexpr double kLeastError_px = 0.02;
 // Half the width of the window, frames, and how many readings it holds at least, each counted by
 // how near it is: as many as two steps of the grid to either side.
-constexpr double kNarrowest = kFocusStep, kWidest = kFocusReach + 1.0, kFewest = 2.1;
-constexpr int kHalvings = 24, kPasses = 20;
+constexpr double kNarrowest = kFocusStep, kWidest = kFocusReach + 1.0, kFewestReadings = 2.1;
+constexpr int kCourseHalvings = 24, kPasses = 20;
 constexpr double kOfMedian = 1.4826;  // deviation of a normal distribution, by its median length
 constexpr double kOutlier = 3;        // deviations, at which a reading counts a quarter
 constexpr double kDiffer = 2.5;       // deviations, of two readings
@@ -101,10 +101,10 @@ double window_for(const std::vector<Point>& points) {
             information += nearness * p.information();
             count += nearness;
         }
-        return count >= kFewest && information * kWantedError * kWantedError >= 1;
+        return count >= kFewestReadings && information * kWantedError * kWantedError >= 1;
     };
     double low = kNarrowest, high = kWidest;
-    for (int i = 0; i < kHalvings; ++i) {
+    for (int i = 0; i < kCourseHalvings; ++i) {
         const double middle = 0.5 * (low + high);
         (enough(middle) ? high : low) = middle;
     }

@@ -14,7 +14,7 @@ namespace weft {
 namespace {
 
 // Of the fit along depth.
-constexpr std::size_t kBins = 12, kFewestInBin = 40;
+constexpr std::size_t kDepthBins = 12, kFewestInBin = 40;
 // Of the range of nearness, within 2 px: an edge between two objects.
 constexpr float kStep = 0.05f;
 // Of the fit over the picture.
@@ -95,7 +95,7 @@ std::optional<FocusModel> fit_focus(const std::vector<EdgeBlur>& edges, const Im
         const Range r = around(nearness, p.edge.x, p.edge.y);
         return r.high - r.low > step;
     });
-    const std::size_t bins = std::min(kBins, placed.size() / kFewestInBin);
+    const std::size_t bins = std::min(kDepthBins, placed.size() / kFewestInBin);
     if (bins < 2) return std::nullopt;
     std::stable_sort(placed.begin(), placed.end(),
                      [](const Placed& a, const Placed& b) { return a.nearness < b.nearness; });

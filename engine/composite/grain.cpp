@@ -10,9 +10,6 @@
 namespace weft {
 namespace {
 
-constexpr int kReach = GrainModel::kRadius;
-constexpr int kBins = GrainModel::kBins;
-
 // Random numbers of deviation 1 for the three channels of a pixel of the plate: the sum of four
 // uniform ones is normal enough, and needs no function whose last bit may differ between machines.
 std::array<float, 3> normals(std::uint64_t key, int x, int y) {
@@ -34,9 +31,9 @@ std::array<float, 3> normals(std::uint64_t key, int x, int y) {
 // Rows of grain for each channel: white noise, its channels mixed, and the same filtered.
 struct GrainRows {
     GrainRows(int width, int rows)
-        : white{ImageF1(width + 2 * kReach, rows + 2 * kReach),
-                ImageF1(width + 2 * kReach, rows + 2 * kReach),
-                ImageF1(width + 2 * kReach, rows + 2 * kReach)},
+        : white{ImageF1(width + 2 * GrainModel::kRadius, rows + 2 * GrainModel::kRadius),
+                ImageF1(width + 2 * GrainModel::kRadius, rows + 2 * GrainModel::kRadius),
+                ImageF1(width + 2 * GrainModel::kRadius, rows + 2 * GrainModel::kRadius)},
           shaped{ImageF1(width, 1), ImageF1(width, 1), ImageF1(width, 1)} {}
 
     // (x0, y0): the plate's pixel of the first white one.
@@ -53,14 +50,13 @@ struct GrainRows {
     }
 
     void filter(const GrainModel& model, int y) {
-        constexpr int kSide = GrainModel::kSide;
         for (std::size_t c = 0; c < 3; ++c) {
             float* out = shaped[c].row(0);
             const int width = shaped[c].width();
             std::fill_n(out, width, 0.0f);
-            for (int k = 0; k < kSide * kSide; ++k) {
+            for (int k = 0; k < GrainModel::kSide * GrainModel::kSide; ++k) {
                 const float tap = model.kernel[c][static_cast<std::size_t>(k)];
-                const float* in = white[c].row(y + k / kSide) + k % kSide;
+                const float* in = white[c].row(y + k / GrainModel::kSide) + k % GrainModel::kSide;
                 for (int x = 0; x < width; ++x)
                     out[x] += tap * in[x];
             }
@@ -86,16 +82,16 @@ void add_grain(ImageView<float, 3> display, ViewU8x1 matte, Vec2i origin, const 
     if (!model.present() || !(strength > 0) || display.empty()) return;
     parallel_rows(display.height(), 16, [&](int y0, int y1) {
         GrainRows rows(display.width(), y1 - y0);
-        rows.draw(model, key, origin.x - kReach, origin.y + y0 - kReach);
+        rows.draw(model, key, origin.x - GrainModel::kRadius, origin.y + y0 - GrainModel::kRadius);
         for (int y = y0; y < y1; ++y) {
             rows.filter(model, y - y0);
             for (int x = 0; x < display.width(); ++x) {
                 if (matte.row(y)[x] == 0) continue;
                 float* p = display.pixel(x, y);
-                const float at =
-                    std::clamp(luma_601(p) * kBins - 0.5f, 0.0f, static_cast<float>(kBins) - 1.0f);
+                const float at = std::clamp(luma_601(p) * GrainModel::kBins - 0.5f, 0.0f,
+                                            static_cast<float>(GrainModel::kBins) - 1.0f);
                 const auto b = static_cast<std::size_t>(at);
-                const std::size_t next = std::min<std::size_t>(b + 1, kBins - 1);
+                const std::size_t next = std::min<std::size_t>(b + 1, GrainModel::kBins - 1);
                 const float t = at - static_cast<float>(b);
                 for (std::size_t c = 0; c < 3; ++c) {
                     const float deviation = model.deviation[c][b] +

@@ -13,13 +13,12 @@
 namespace weft {
 namespace {
 
-constexpr int kReach = GrainModel::kRadius, kBins = GrainModel::kBins;
-constexpr int kSide = RegisteredBlock::kSide;
+constexpr int kBlockSide = RegisteredBlock::kSide;
 // Pixels whose neighbours within the reach are in the block.
-constexpr int kInner = kSide - 2 * kReach;
-constexpr double kMostBlocks = 600;  // of a frame; more add nothing new
-constexpr float kFewestInCell = 60;  // pixels
-constexpr double kFewest = 400;      // pixels in all
+constexpr int kInner = kBlockSide - 2 * GrainModel::kRadius;
+constexpr double kMostBlocks = 600;    // of a frame; more add nothing new
+constexpr float kFewestInCell = 60;    // pixels
+constexpr double kFewestPixels = 400;  // in all
 // This many pixels of grain, whose neighbours are correlated, count as one independent pixel.
 constexpr double kPixelsOfOne = 2.5;
 constexpr double kLeastDeviation = 0.35 / 255;  // less is not visible
@@ -40,8 +39,8 @@ double rounding_variance(float quantum) {
 
 bool moving_light(const RegisteredBlock& block) {
     double wide = 0, all = 0;
-    for (int y = 0; y < kSide; y += kSquare) {
-        for (int x = 0; x < kSide; x += kSquare) {
+    for (int y = 0; y < kBlockSide; y += kSquare) {
+        for (int x = 0; x < kBlockSide; x += kSquare) {
             std::array<double, 3> sum{};
             for (int v = y; v < y + kSquare; ++v) {
                 for (int u = x; u < x + kSquare; ++u) {
@@ -62,16 +61,23 @@ float smooth_luma(const ImageF3& mean, int x, int y) {
     float sum = 0;
     for (int v = y - 2; v <= y + 2; ++v) {
         for (int u = x - 2; u <= x + 2; ++u)
-            sum += luma_601(mean.pixel(std::clamp(u, 0, kSide - 1), std::clamp(v, 0, kSide - 1)));
+            sum += luma_601(
+                mean.pixel(std::clamp(u, 0, kBlockSide - 1), std::clamp(v, 0, kBlockSide - 1)));
     }
     return sum / 25.0f;
 }
 
-GrainLags lags_of(const std::array<std::array<float, 4>, 2>& lookup) {
+std::size_t bin_of(float luma) {
+    return static_cast<std::size_t>(
+        std::clamp(static_cast<int>(luma * GrainModel::kBins), 0, GrainModel::kBins - 1));
+}
+
+GrainLags lags_in_plane(const std::array<std::array<float, 4>, 2>& lookup) {
     GrainLags out{};
-    for (int y = -kReach; y <= kReach; ++y) {
-        for (int x = -kReach; x <= kReach; ++x) {
-            out[static_cast<std::size_t>((y + kReach) * GrainModel::kSide + x + kReach)] =
+    for (int y = -GrainModel::kRadius; y <= GrainModel::kRadius; ++y) {
+        for (int x = -GrainModel::kRadius; x <= GrainModel::kRadius; ++x) {
+            out[static_cast<std::size_t>((y + GrainModel::kRadius) * GrainModel::kSide + x +
+                                         GrainModel::kRadius)] =
                 static_cast<double>(lookup[0][static_cast<std::size_t>(std::abs(x))]) *
                 lookup[1][static_cast<std::size_t>(std::abs(y))];
         }
@@ -105,16 +111,15 @@ namespace {
 // The lumas of a block, each with its differences.
 template <class Cell>
 std::vector<Cell> cells_of(const RegisteredBlock& block, float clipped) {
-    std::array<Cell, kBins> cells{};
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
+    std::array<Cell, GrainModel::kBins> cells{};
+    for (int y = 0; y < kBlockSide; ++y) {
+        for (int x = 0; x < kBlockSide; ++x) {
             const float luma = smooth_luma(block.mean, x, y);
             const float* m = block.mean.pixel(x, y);
             if (clipped > 0 && (std::min({m[0], m[1], m[2]}) < clipped ||
                                 std::max({m[0], m[1], m[2]}) > 1 - clipped))
                 continue;
-            Cell& cell = cells[static_cast<std::size_t>(
-                std::clamp(static_cast<int>(luma * kBins), 0, kBins - 1))];
+            Cell& cell = cells[bin_of(luma)];
             cell.count += 1, cell.luma += luma;
             for (std::size_t c = 0; c < 3; ++c) {
                 const float r = block.residual.pixel(x, y)[c];
@@ -140,16 +145,16 @@ template <class Block>
 Block products_of(const RegisteredBlock& block) {
     Block out{};
     out.lookup = block.lookup;
-    out.count = kSide * kSide;
-    for (int y = kReach; y < kSide - kReach; ++y) {
-        for (int x = kReach; x < kSide - kReach; ++x) {
+    out.count = kBlockSide * kBlockSide;
+    for (int y = GrainModel::kRadius; y < kBlockSide - GrainModel::kRadius; ++y) {
+        for (int x = GrainModel::kRadius; x < kBlockSide - GrainModel::kRadius; ++x) {
             const float* r = block.residual.pixel(x, y);
             out.together[0] += static_cast<double>(r[1]) * r[0];
             out.together[1] += static_cast<double>(r[2]) * r[0];
             out.together[2] += static_cast<double>(r[2]) * r[1];
             std::size_t k = 0;
-            for (int v = -kReach; v <= kReach; ++v) {
-                for (int u = -kReach; u <= kReach; ++u, ++k) {
+            for (int v = -GrainModel::kRadius; v <= GrainModel::kRadius; ++v) {
+                for (int u = -GrainModel::kRadius; u <= GrainModel::kRadius; ++u, ++k) {
                     const float* o = block.residual.pixel(x + u, y + v);
                     for (std::size_t c = 0; c < 3; ++c)
                         out.products[c][k] += static_cast<double>(r[c]) * o[c];
@@ -165,13 +170,13 @@ Block products_of(const RegisteredBlock& block) {
 void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1 previous_visible,
                      ViewF2 prev_from_cur) {
     const Size size = current.size();
-    if (size.width < 2 * kSide || size.height < 2 * kSide) return;
+    if (size.width < 2 * kBlockSide || size.height < 2 * kBlockSide) return;
     const BlockPair pair(current, previous, visible, previous_visible);
     const double area = static_cast<double>(size.width) * size.height;
-    const int step = std::max(kSide, static_cast<int>(std::sqrt(area / kMostBlocks)));
+    const int step = std::max(kBlockSide, static_cast<int>(std::sqrt(area / kMostBlocks)));
     constexpr int kBorder = 2 * RegisteredBlock::kBorder;
-    const int columns = (size.width - 2 * kBorder - kSide) / step + 1;
-    const int rows = (size.height - 2 * kBorder - kSide) / step + 1;
+    const int columns = (size.width - 2 * kBorder - kBlockSide) / step + 1;
+    const int rows = (size.height - 2 * kBorder - kBlockSide) / step + 1;
     struct Found {
         Block block;
         std::vector<Cell> cells;
@@ -182,7 +187,8 @@ void GrainMeter::add(ViewF3 current, ViewF3 previous, ViewU8x1 visible, ViewU8x1
         for (int r = r0; r < r1; ++r) {
             for (int k = 0; k < columns; ++k) {
                 const Vec2i corner{kBorder + k * step, kBorder + r * step};
-                const float* d = prev_from_cur.pixel(corner.x + kSide / 2, corner.y + kSide / 2);
+                const float* d =
+                    prev_from_cur.pixel(corner.x + kBlockSide / 2, corner.y + kBlockSide / 2);
                 const auto block = register_block(pair, corner, {d[0], d[1]});
                 if (!block || moving_light(*block)) continue;
                 Found f{products_of<Block>(*block),
@@ -216,7 +222,7 @@ GrainMeter::Sums GrainMeter::sums_of(const std::vector<float>& confidence) const
                               block.products[2][kLags / 2];
         if (!(energy > 0)) continue;
         const double share = of_block[b] / energy;
-        const Lags lookup = lags_of(block.lookup);
+        const Lags lookup = lags_in_plane(block.lookup);
         const double rounding = 2 * rounding_variance(quantum_) * kInner * kInner;
         for (std::size_t c = 0; c < 3; ++c) {
             sums.together[c] += share * block.together[c];
@@ -230,7 +236,7 @@ GrainMeter::Sums GrainMeter::sums_of(const std::vector<float>& confidence) const
         // Registration removes the widest part of the grain, equally at all lags.
         const double whole = std::accumulate(products.begin(), products.end(), 0.0);
         for (double& p : products)
-            p += kTaken / (kSide * kSide) * whole;
+            p += kTaken / (kBlockSide * kBlockSide) * whole;
     }
     return sums;
 }
@@ -240,7 +246,7 @@ GrainModel GrainMeter::model() const {
     double pixels = 0;
     for (const Cell& cell : cells_)
         pixels += cell.count;
-    if (pixels < kFewest) return model;
+    if (pixels < kFewestPixels) return model;
 
     // The first round assumes that the lookup removes no grain, to find the places that show grain
     // and its spectrum. The second allows for what the lookup removes of such grain.
@@ -252,7 +258,7 @@ GrainModel GrainMeter::model() const {
             std::vector<GrainPlace> places;
             for (const Cell& cell : cells_) {
                 double kept = 0;
-                const Lags lookup = lags_of(blocks_[cell.block].lookup);
+                const Lags lookup = lags_in_plane(blocks_[cell.block].lookup);
                 for (std::size_t k = 0; k < kLags; ++k)
                     kept += lookup[k] *
                             (pass == 0 ? (k == kLags / 2 ? 1.0 : 0.0) : spectra[c].correlation[k]);
@@ -280,13 +286,12 @@ GrainModel GrainMeter::model() const {
     }
 
     const double rounding = rounding_variance(quantum_);
-    std::array<double, kBins> share{};
+    std::array<double, GrainModel::kBins> share{};
     for (const Cell& cell : cells_)
-        share[static_cast<std::size_t>(
-            std::clamp(static_cast<int>(cell.luma * kBins), 0, kBins - 1))] += cell.count / pixels;
+        share[bin_of(cell.luma)] += cell.count / pixels;
     std::array<double, 3> usual{};
     for (std::size_t c = 0; c < 3; ++c) {
-        for (std::size_t b = 0; b < kBins; ++b)
+        for (std::size_t b = 0; b < GrainModel::kBins; ++b)
             usual[c] += share[b] * std::max(0.0, levels[c].variance[b] - rounding);
     }
     const double most = std::max({usual[0], usual[1], usual[2]});
@@ -294,7 +299,7 @@ GrainModel GrainMeter::model() const {
         return model;
     for (std::size_t c = 0; c < 3; ++c) {
         model.kernel[c] = spectra[c].kernel;
-        for (std::size_t b = 0; b < kBins; ++b)
+        for (std::size_t b = 0; b < GrainModel::kBins; ++b)
             model.deviation[c][b] = static_cast<float>(std::sqrt(std::clamp(
                 levels[c].variance[b] - rounding, 0.0, kMostOfUsual * kMostOfUsual * usual[c])));
     }

@@ -8,14 +8,14 @@
 namespace weft {
 namespace {
 
-constexpr int kReach = GrainModel::kRadius, kSide = GrainModel::kSide;
 constexpr int kSize = 16;           // frequencies along x and y
 constexpr double kMostLost = 0.15;  // of a frequency's power; a larger loss is not restored
 
 using Plane = std::array<std::array<double, kSize>, kSize>;
 
 std::size_t lag(int x, int y) {
-    return static_cast<std::size_t>((y + kReach) * kSide + x + kReach);
+    return static_cast<std::size_t>((y + GrainModel::kRadius) * GrainModel::kSide + x +
+                                    GrainModel::kRadius);
 }
 
 double cosine(int a) {
@@ -33,10 +33,11 @@ Plane power_of(const GrainLags& lags, bool tapered) {
     const double centre = std::max(lags[lag(0, 0)], 1e-30);
     for (int v = 0; v < kSize; ++v) {
         for (int u = 0; u < kSize; ++u) {
-            for (int y = -kReach; y <= kReach; ++y) {
-                for (int x = -kReach; x <= kReach; ++x) {
+            for (int y = -GrainModel::kRadius; y <= GrainModel::kRadius; ++y) {
+                for (int x = -GrainModel::kRadius; x <= GrainModel::kRadius; ++x) {
                     const double r2 =
-                        static_cast<double>(x * x + y * y) / (kReach * kReach + kReach);
+                        static_cast<double>(x * x + y * y) /
+                        (GrainModel::kRadius * GrainModel::kRadius + GrainModel::kRadius);
                     const double taper = tapered ? std::max(0.0, 1 - r2 * r2 * r2 * r2) : 1.0;
                     at(power, u, v) += taper * cosine(u * x + v * y) * lags[lag(x, y)] / centre;
                 }
@@ -49,8 +50,8 @@ Plane power_of(const GrainLags& lags, bool tapered) {
 // Back in space, within the reach.
 GrainLags in_space(Plane& plane) {
     GrainLags out{};
-    for (int y = -kReach; y <= kReach; ++y) {
-        for (int x = -kReach; x <= kReach; ++x) {
+    for (int y = -GrainModel::kRadius; y <= GrainModel::kRadius; ++y) {
+        for (int x = -GrainModel::kRadius; x <= GrainModel::kRadius; ++x) {
             for (int v = 0; v < kSize; ++v) {
                 for (int u = 0; u < kSize; ++u)
                     out[lag(x, y)] += at(plane, u, v) * cosine(u * x + v * y);

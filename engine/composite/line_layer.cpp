@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "engine/core/finite_rgb.h"
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 
@@ -35,7 +36,7 @@ cv::Mat disc(int radius) {
 // ---- the ink's colour --------------------------------------------------------------------------
 
 constexpr int kCore = 224;  // coverage from which a pixel shows ink alone
-constexpr int kReach = 8;
+constexpr int kCoreCell = 8;
 
 struct ColourSum {
     std::array<double, 3> rgb{};
@@ -52,21 +53,17 @@ struct ColourSum {
     }
 };
 
-bool finite(const float* p) {
-    return std::isfinite(p[0] + p[1] + p[2]);
-}
-
-// Sums of the core pixels' colours, in cells of kReach × kReach px.
+// Sums of the core pixels' colours, in cells of kCoreCell × kCoreCell px.
 class Cores {
   public:
     Cores(ViewF3 plate, ViewU8x1 lines)
-        : width_((plate.width() + kReach - 1) / kReach),
-          height_((plate.height() + kReach - 1) / kReach),
+        : width_((plate.width() + kCoreCell - 1) / kCoreCell),
+          height_((plate.height() + kCoreCell - 1) / kCoreCell),
           cells_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
         for (int y = 0; y < plate.height(); ++y) {
             for (int x = 0; x < plate.width(); ++x) {
-                if (lines.at(x, y) < kCore || !finite(plate.pixel(x, y))) continue;
-                cells_[index(x / kReach, y / kReach)].add(plate.pixel(x, y));
+                if (lines.at(x, y) < kCore || !finite_rgb(plate.pixel(x, y))) continue;
+                cells_[index(x / kCoreCell, y / kCoreCell)].add(plate.pixel(x, y));
                 all_.add(plate.pixel(x, y));
             }
         }
@@ -75,7 +72,7 @@ class Cores {
     // Sums of the cores in the cell and its eight neighbours, else of all; weight 0: no cores.
     [[nodiscard]] ColourSum near(int x, int y) const {
         ColourSum sum;
-        const int u = x / kReach, v = y / kReach;
+        const int u = x / kCoreCell, v = y / kCoreCell;
         for (int j = std::max(0, v - 1); j <= std::min(height_ - 1, v + 1); ++j)
             for (int i = std::max(0, u - 1); i <= std::min(width_ - 1, u + 1); ++i)
                 sum.add(cells_[index(i, j)]);
@@ -130,7 +127,7 @@ void lay_lines(ImageView<float, 3> surface, ViewF3 plate, ViewU8x1 lines) {
             for (int x = 0; x < surface.width(); ++x) {
                 const float l = static_cast<float>(lines.at(x, y)) / 255.0f;
                 const float* p = plate.pixel(x, y);
-                if (l <= 0 || !finite(p)) continue;
+                if (l <= 0 || !finite_rgb(p)) continue;
                 const ColourSum core = cores.near(x, y);
                 // In a core the pixel shows its own ink.
                 const bool own = lines.at(x, y) >= kCore || core.weight <= 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSide = RegisteredBlock::kSide;
 constexpr int kOuter = kSide + 2 * RegisteredBlock::kBorder;
-constexpr int kReach = 6;  // half pixels of the search, to each side
+constexpr int kSearchReach = 6;  // half pixels of the search, to each side
 constexpr int kRounds = 3;
 constexpr float kLongestStep = 0.5f;
 
@@ -153,9 +153,9 @@ Terms fitted(const ImageF1& plane, float middle, const ImageF1& difference) {
     }
     // The ridge, a thousandth of a level per pixel, keeps the matrix of flat blocks positive
     // definite.
-    constexpr double kRidge = 1.5e-11 * kSide * kSide;
+    constexpr double kSmallRidge = 1.5e-11 * kSide * kSide;
     for (std::size_t i = 0; i < kTerms; ++i)
-        m[i][i] = m[i][i] * (1 + 1e-6) + kRidge;
+        m[i][i] = m[i][i] * (1 + 1e-6) + kSmallRidge;
     Terms out{};
     const std::array<double, kTerms> solution = solve(m);
     std::transform(solution.begin(), solution.end(), out.begin(),
@@ -260,8 +260,8 @@ std::optional<RegisteredBlock> register_block(const BlockPair& pair, Vec2i corne
         return std::nullopt;
     const auto rounded = [](float v) { return static_cast<int>(std::floor(v + 0.5f)); };
     const Vec2i coarse = best_place(
-        pair.small_luma, {outer.x / 2, outer.y / 2}, pair.small_previous_luma, kOuter / 2, kReach,
-        {Vec2i{0, 0}, Vec2i{rounded(0.5f * start[0]), rounded(0.5f * start[1])}});
+        pair.small_luma, {outer.x / 2, outer.y / 2}, pair.small_previous_luma, kOuter / 2,
+        kSearchReach, {Vec2i{0, 0}, Vec2i{rounded(0.5f * start[0]), rounded(0.5f * start[1])}});
     const Vec2i twice{2 * coarse.x, 2 * coarse.y};
     Vec2i whole = best_place(pair.luma, outer, pair.previous_luma, kOuter, 2, {twice, twice});
 

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr float kMostAgain = 1.2f;
+constexpr float kMostCorrection = 1.2f;
 
 // By how much a blur has to be changed for the edges to come out as they would if they were ideal.
 float correction(const ImageF3& texture, const Matte& all, float own_px, float blur_px) {
@@ -19,7 +19,8 @@ float correction(const ImageF3& texture, const Matte& all, float own_px, float b
     const float got_px = edge_blur_px(tried, all);
     if (!(got_px > 0)) return 1;
     const float variance = 2 * blur_px * blur_px + own_px * own_px - got_px * got_px;
-    return std::clamp(std::sqrt(std::max(0.0f, variance)) / blur_px, 1 / kMostAgain, kMostAgain);
+    return std::clamp(std::sqrt(std::max(0.0f, variance)) / blur_px, 1 / kMostCorrection,
+                      kMostCorrection);
 }
 
 }  // namespace

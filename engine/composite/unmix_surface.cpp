@@ -5,6 +5,7 @@
 
 #include "engine/composite/colour_statistics.h"
 #include "engine/composite/composite.h"
+#include "engine/core/finite_rgb.h"
 #include "engine/core/parallel.h"
 
 namespace weft {
@@ -21,10 +22,6 @@ constexpr float kMatteError = 0.2f;
 constexpr float kSureWeight =
     1e-4f;  // of surroundings, as found 30 px away; below this they are not reliable
 
-bool finite(const float* p) {
-    return std::isfinite(p[0] + p[1] + p[2]);
-}
-
 // Copies what is known and returns the box of the pixels that have to be estimated.
 Recti copy_surface(ViewF3 plate, ViewU8x1 matte, ImageF3& surface) {
     std::vector<Recti> rows(static_cast<std::size_t>(matte.height()));
@@ -35,7 +32,7 @@ Recti copy_surface(ViewF3 plate, ViewU8x1 matte, ImageF3& surface) {
             for (int x = 0; x < matte.width(); ++x) {
                 if (m[x] == 0) continue;
                 const float* p = plate.pixel(x, y);
-                if (m[x] == 255 && finite(p)) {
+                if (m[x] == 255 && finite_rgb(p)) {
                     std::copy(p, p + 3, surface.pixel(x, y));
                 } else {
                     if (wanted.empty()) wanted = {x, y, x + 1, y + 1};
@@ -95,7 +92,7 @@ ImageF3 unmix_surface(ViewF3 plate, ViewU8x1 matte) {
             for (int x = wanted.x0; x < wanted.x1; ++x) {
                 if (m[x] == 0) continue;
                 const float* p = plate.pixel(x, y);
-                const bool usable = finite(p);
+                const bool usable = finite_rgb(p);
                 if (m[x] == 255 && usable) continue;
                 const NearColours around = pyramid.near(x, y);
                 float* b = surface.pixel(x, y);

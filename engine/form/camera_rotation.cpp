@@ -91,7 +91,7 @@ Matrix3d nearest_rotation(const Matrix3d& m) {
     return u * svd.matrixV().transpose();
 }
 
-Camera camera_of(const std::vector<Seen>& seen, const Spread& spread) {
+Camera camera_from(const std::vector<Seen>& seen, const Spread& spread) {
     constexpr double kFlat = 1e-3;
     const bool flat = spread.deviation[2] < kFlat * spread.deviation[0];
     const int n = flat ? 3 : 4;
@@ -126,7 +126,7 @@ std::optional<std::array<double, 9>> camera_rotation(ViewF3 places, const ViewCa
     if (seen.size() < kLeast) return std::nullopt;
     const Spread spread = spread_of(seen);
     if (!(spread.deviation[1] > kLine * spread.deviation[0])) return std::nullopt;
-    const Camera at = camera_of(seen, spread);
+    const Camera at = camera_from(seen, spread);
     if (!(median_miss_px(seen, at, camera.focal_px) <= most_px)) return std::nullopt;
     std::array<double, 9> out{};
     for (int row = 0; row < 3; ++row)

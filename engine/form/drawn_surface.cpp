@@ -7,6 +7,7 @@
 
 #include "engine/form/plane_from_lines.h"
 #include "engine/form/rigid_bundle.h"
+#include "engine/form/unit_vector.h"
 
 namespace weft {
 namespace {
@@ -16,13 +17,6 @@ using Vector = glm::dvec3;
 constexpr double kLeastCosine = 0.05;    // of the view; more grazing does not tell
 constexpr double kLeastNearness = 0.04;  // of a plane towards its horizon, against its middle
 constexpr double kMostPointing = 0.985;  // cosine of a cylinder's axis against the view
-
-double length(const Vector& v) {
-    return std::sqrt(glm::dot(v, v));
-}
-Vector unit(const Vector& v) {
-    return v / length(v);
-}
 
 // Long double: see docs/decisions/0002-determinism.md.
 double sine_of_degrees(double deg) {
@@ -172,7 +166,7 @@ Expected<DrawnSurface> round_surface(const FormGuide& shape, DrawnSurface out) {
     }
     WEFT_TRY(axis, tilted_axis(o, tilted ? shape.numbers[6] : 0.0));
     const Vector along = axis.b - axis.a;
-    const double long_ = length(along);
+    const double long_ = glm::length(along);
     // Radii of the balls around A and B that touch the outlines.
     const double a = glm::dot(o.left, axis.a), b = glm::dot(o.left, axis.b);
     const double sine = (b - a) / long_;
@@ -203,7 +197,7 @@ DrawnSurface ball_surface(const FormGuide& shape, DrawnSurface out) {
                  down = ray(c.x, c.y + r);
     const Vector middle = unit(left + right + up + down);
     // Sine of half the angle between the edges, in the mean of both ways.
-    const auto sine = [](const Vector& p, const Vector& q) { return 0.5 * length(p - q); };
+    const auto sine = [](const Vector& p, const Vector& q) { return 0.5 * glm::length(p - q); };
     out.body = DrawnBall{middle, 0.5 * (sine(left, right) + sine(up, down))};
     return out;
 }
@@ -246,7 +240,7 @@ std::optional<Metric> DrawnSurface::metric(Vec2 pixel) const {
     const auto at = std::visit([&](const auto& b) { return hit(b, ray); }, body);
     if (!at) return std::nullopt;
     const double straight = glm::dot(at->normal, ray);
-    const double cosine = std::abs(straight) / (length(at->normal) * length(ray));
+    const double cosine = std::abs(straight) / (glm::length(at->normal) * glm::length(ray));
     if (!(cosine >= kLeastCosine)) return std::nullopt;
     // A step of the ray moves its place along the ray, back onto the surface.
     const auto step = [&](const Vector& d) -> Vector {

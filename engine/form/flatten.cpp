@@ -16,9 +16,9 @@ namespace weft {
 namespace {
 
 constexpr int kMostSteps = 40;
-constexpr double kEnough = 1e-4;    // relative gain of a step
-constexpr double kFollows = 0.01;   // weight of cells without evidence
-constexpr double kProximal = 1e-4;  // of the mean diagonal: keeps translation and rotation
+constexpr double kEnoughGain = 1e-4;  // relative gain of a step
+constexpr double kFollows = 0.01;     // weight of cells without evidence
+constexpr double kProximal = 1e-4;    // of the mean diagonal: keeps translation and rotation
 constexpr double kShortOfFlip = 0.9;
 
 using Matrix2 = Eigen::Matrix2d;
@@ -259,7 +259,7 @@ void Flattening::solve() {
         u_ += length * step;
         const double gain = (before - after) / before;
         before = after;
-        if (gain < kEnough) return;
+        if (gain < kEnoughGain) return;
     }
 }
 

@@ -6,20 +6,19 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/form/eigen_types.h"
 #include "engine/form/rigid_pose.h"
 #include "engine/form/view_camera.h"
 
 namespace weft {
 namespace {
 
-constexpr double kPlaces = 240;  // that decide the pose
+constexpr double kPosePlaces = 240;  // that decide the pose
 constexpr std::size_t kLeastPlaces = 12;
-constexpr double kSigma = 0.3 / 854;  // of a place, by the longer side
-constexpr double kOff = 1.5 / 854;    // at which the confidence has fallen by half
+constexpr double kSigma = 0.3 / 854;        // of a place, by the longer side
+constexpr double kHalfTrusted = 1.5 / 854;  // at which the confidence has fallen by half
 constexpr float kStill_px = 1e-3f;
 constexpr float kHalf_px = 1;  // of the step by which slopes are taken
-
-using Vector3 = Eigen::Vector3d;
 
 Vector3 vector_of(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -85,7 +84,7 @@ Pose find_pose(const Relief& relief, const Way& way, ViewU8x1 matte, const Recti
     for (int y = 0; y < box.height(); ++y)
         area += static_cast<double>(std::count_if(matte.row(y), matte.row(y) + box.width(),
                                                   [](std::uint8_t v) { return v >= 128; }));
-    const int step = std::max(1, static_cast<int>(std::sqrt(area / kPlaces)));
+    const int step = std::max(1, static_cast<int>(std::sqrt(area / kPosePlaces)));
     std::vector<SeenPlace> seen;
     bool still = true;
     for (int y = step / 2; y < box.height(); y += step) {
@@ -129,7 +128,7 @@ ShownForm form_on_frame(const FormMap& form, const LatticeField& ref_from_cur, V
                 const Vector3 normal = pose.rigid.rotation * relief.normal(from);
                 const Vector3 moved = pose.rigid.rotation * place + pose.rigid.shift;
                 const double off =
-                    error_px(pose.rigid, relief.camera(), {place, at}) / (kOff * side);
+                    error_px(pose.rigid, relief.camera(), {place, at}) / (kHalfTrusted * side);
                 if (!normal.allFinite() || !(moved.z() > 0) || !std::isfinite(off)) continue;
                 // From view space, whose y points down and whose z points into the scene.
                 float* n = out.normal.pixel(x, y);

@@ -9,17 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "engine/form/exact_math.h"
+
 namespace weft {
 namespace {
 
 constexpr double kCommonTangent = 0.91;  // of half the field of view's, twice: 49°
-constexpr double kLeastTangent = 0.25, kMostTangent = 2.6;
+constexpr double kLeastViewTangent = 0.25, kMostViewTangent = 2.6;
 constexpr double kOff = 0.1;  // ln of the larger length, at which a cell hardly counts
-
-// Long double: see docs/decisions/0002-determinism.md.
-double ln(double v) {
-    return static_cast<double>(std::log(static_cast<long double>(v)));
-}
 
 // Of the directions of rays, as seen from the camera.
 Metric of_directions(const glm::dvec3& ray, double focal_px) {
@@ -171,8 +168,8 @@ void add_relief(FormMap& form, const MetricField& field, double fov_deg, Size pi
 double fov_of_metric(const MetricField& field, Size picture) {
     double best = kCommonTangent;
     double least = disagreement(field, camera_of(best, picture));
-    const double step = std::sqrt(std::sqrt(std::sqrt(kMostTangent / kLeastTangent)));
-    double from = kLeastTangent, to = kMostTangent;
+    const double step = std::sqrt(std::sqrt(std::sqrt(kMostViewTangent / kLeastViewTangent)));
+    double from = kLeastViewTangent, to = kMostViewTangent;
     // Eight steps over all, then over what is left around the best.
     for (int round = 0; round < 4; ++round) {
         const double ratio = round == 0 ? step : std::sqrt(std::sqrt(std::sqrt(to / from)));

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -207,22 +208,18 @@ Eigen::VectorXd curvature(const Grid& grid, const Eigen::VectorXd& u) {
     return (sum.array() + kNothing) / (weight.array() + kNothing);
 }
 
-double dot(const glm::dvec3& a, const glm::dvec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 // A slope, at most kMostSlope: what is seen more grazingly is a guess that would only be squeezed.
-glm::dvec2 bounded(glm::dvec2 slope) {
+glm::dvec2 bounded_slope(glm::dvec2 slope) {
     const double square = (slope.x * slope.x + slope.y * slope.y) / (kMostSlope * kMostSlope);
     return slope / std::sqrt(1 + square);
 }
 
 // Of a surface whose height over the picture plane, in pixels, has these slopes.
-Metric metric_of(double height, glm::dvec2 slope, const glm::dvec3& ray, double focal_px) {
+Metric metric_of_height(double height, glm::dvec2 slope, const glm::dvec3& ray, double focal_px) {
     const double z = focal_px - std::min(height, kMostHeight * focal_px);
     const glm::dvec3 x = glm::dvec3(z / focal_px, 0, 0) - ray * slope.x;
     const glm::dvec3 y = glm::dvec3(0, z / focal_px, 0) - ray * slope.y;
-    return {dot(x, x), dot(x, y), dot(y, y)};
+    return {glm::dot(x, x), glm::dot(x, y), glm::dot(y, y)};
 }
 
 }  // namespace
@@ -244,9 +241,10 @@ bool add_inflated(MetricField& field, ViewU8x1 matte, ViewU8x1 cut, ViewU8x1 see
         const double height = std::sqrt(std::max(squares[k], 1e-6));
         // d√s = ds / (2 √s)
         const double by = 1 / (4.0 * grid.step() * height);
-        const glm::dvec2 slope = bounded({by * (on.beside(i, j, 1, 0) - on.beside(i, j, -1, 0)),
-                                          by * (on.beside(i, j, 0, 1) - on.beside(i, j, 0, -1))});
-        const Metric metric = metric_of(height, slope, camera.ray(at), camera.focal_px);
+        const glm::dvec2 slope =
+            bounded_slope({by * (on.beside(i, j, 1, 0) - on.beside(i, j, -1, 0)),
+                           by * (on.beside(i, j, 0, 1) - on.beside(i, j, 0, -1))});
+        const Metric metric = metric_of_height(height, slope, camera.ray(at), camera.focal_px);
         const double cosine = facing(metric);
         if (cosine > 0) field.add(at, metric, cosine * cosine);
     });

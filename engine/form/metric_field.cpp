@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/form/exact_math.h"
 #include "engine/motion/lattice_field.h"
 
 namespace weft {
@@ -29,10 +30,6 @@ Eigen2 eigen_of(const Metric& m) {
             along_x ? shorter : std::copysign(longer, m.xy)};
 }
 
-// Long double: see docs/decisions/0002-determinism.md.
-double ln(double v) {
-    return static_cast<double>(std::log(static_cast<long double>(v)));
-}
 double power_of_e(double v) {
     return static_cast<double>(std::exp(static_cast<long double>(v)));
 }
@@ -58,7 +55,7 @@ Metric exp_of(const Metric& m) {
 }
 
 // Within what can be laid: no grazing view and no area beyond all others.
-Metric bounded(const Metric& m) {
+Metric bounded_metric(const Metric& m) {
     Eigen2 e = eigen_of(m);
     e.smaller = std::max(e.smaller, e.larger * kLeastFacing * kLeastFacing);
     const double area = std::sqrt(e.larger * e.smaller);
@@ -154,7 +151,7 @@ double MetricField::scale_to_unit_area() {
     }
     const double by = power_of_e(-sum / count);
     for (std::size_t k = 0; k < metrics_.size(); ++k)
-        if (evidence_[k] > 0) metrics_[k] = bounded(scaled(metrics_[k], by));
+        if (evidence_[k] > 0) metrics_[k] = bounded_metric(scaled(metrics_[k], by));
     return by;
 }
 
@@ -195,7 +192,7 @@ void MetricField::continue_outwards(const std::vector<bool>& known) {
         }
     }
     for (std::size_t k = 0; k < metrics_.size(); ++k)
-        if (!known[k]) metrics_[k] = bounded(exp_of(logs[k]));
+        if (!known[k]) metrics_[k] = bounded_metric(exp_of(logs[k]));
 }
 
 bool MetricField::finish(const Beyond& beyond) {
@@ -217,7 +214,7 @@ bool MetricField::finish(const Beyond& beyond) {
             if (known[k] || !beyond) continue;
             const auto metric = beyond(centre_of(i, j));
             if (!metric || !(metric->determinant() > 0)) continue;
-            metrics_[k] = bounded(scaled(*metric, by));
+            metrics_[k] = bounded_metric(scaled(*metric, by));
             known[k] = true;
         }
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -14,19 +15,12 @@
 namespace weft {
 namespace {
 
-constexpr double kMostAway = 0.2;      // share of a pass that may face away
-constexpr double kLeastCosine = 0.05;  // of a normal that counts
-constexpr double kSmooth = 0.95;       // cosine between normals that belong to one slope
-constexpr double kFold = 0.1;          // slope of ln depth between blocks at which a fold begins
-constexpr double kBridge = 1e-3;       // weight of steps across what is not seen
-constexpr double kHeld = 1e-9;         // holds every part of the surface to a depth of 1
-
-double dot(const glm::dvec3& a, const glm::dvec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-double length(const glm::dvec3& v) {
-    return std::sqrt(dot(v, v));
-}
+constexpr double kMostAway = 0.2;            // share of a pass that may face away
+constexpr double kLeastNormalCosine = 0.05;  // of a normal that counts
+constexpr double kSmooth = 0.95;             // cosine between normals that belong to one slope
+constexpr double kFold = 0.1;     // slope of ln depth between blocks at which a fold begins
+constexpr double kBridge = 1e-3;  // weight of steps across what is not seen
+constexpr double kHeld = 1e-9;    // holds every part of the surface to a depth of 1
 
 Vec2 centre_of_pixel(int x, int y) {
     return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
@@ -97,7 +91,7 @@ void Blocks::sum_up(ViewF3 normals, ViewU8x1 matte) {
         }
     }
     for (Block& block : blocks_) {
-        const double size = length(block.normal);
+        const double size = glm::length(block.normal);
         // All of it is known, and it is not folded.
         block.seen = block.pixels == side_ * side_ && size >= kSmooth * block.pixels;
         block.normal = block.seen ? block.normal / size : glm::dvec3(0);
@@ -121,7 +115,7 @@ void Blocks::bridge() {
                 glm::dvec3 sum(0);
                 for (const auto& [x, y] : {std::pair{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}})
                     if (known(x, y)) sum += at(x, y).normal;
-                if (const double size = length(sum); size > 1e-3)
+                if (const double size = glm::length(sum); size > 1e-3)
                     ring.emplace_back(&at(i, j), sum / size);
             }
         }
@@ -136,9 +130,9 @@ void Blocks::find_slopes(const ViewCamera& camera) {
         for (int i = 0; i < size_.width; ++i) {
             Block& block = at(i, j);
             const glm::dvec3 ray = camera.ray(centre(i, j));
-            const double towards = dot(block.normal, ray);
-            block.cosine = -towards / length(ray);
-            if (block.cosine < kLeastCosine) continue;
+            const double towards = glm::dot(block.normal, ray);
+            block.cosine = -towards / glm::length(ray);
+            if (block.cosine < kLeastNormalCosine) continue;
             block.along_x = -block.normal.x / (camera.focal_px * towards);
             block.along_y = -block.normal.y / (camera.focal_px * towards);
             block.unknown = unknowns_++;
@@ -150,7 +144,7 @@ bool Blocks::smooth(int i, int j) const {
     const Block& here = at(i, j);
     for (const auto& [x, y] : {std::pair{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}}) {
         if (x < 0 || y < 0 || x >= size_.width || y >= size_.height || !at(x, y).seen) continue;
-        if (dot(here.normal, at(x, y).normal) < kSmooth) return false;
+        if (glm::dot(here.normal, at(x, y).normal) < kSmooth) return false;
     }
     return here.seen;
 }
@@ -184,22 +178,22 @@ Eigen::VectorXd Blocks::log_depths() const {
     return solver.solve(right);
 }
 
-struct Seen {
+struct SeenMetric {
     Vec2 place{0};  // on the reference frame
     Metric metric;
     double weight = 0;
 };
 
 // Of one block at a depth of 1: tangents are ∂(z r) with z = 1.
-Metric metric_of(const Block& block, const glm::dvec3& ray, double focal_px) {
+Metric metric_of_block(const Block& block, const glm::dvec3& ray, double focal_px) {
     const glm::dvec3 x = ray * block.along_x + glm::dvec3(1 / focal_px, 0, 0);
     const glm::dvec3 y = ray * block.along_y + glm::dvec3(0, 1 / focal_px, 0);
-    return {dot(x, x), dot(x, y), dot(y, y)};
+    return {glm::dot(x, x), glm::dot(x, y), glm::dot(y, y)};
 }
 
-std::vector<Seen> seen_in(const Blocks& blocks, const ViewCamera& camera,
-                          const LatticeField& ref_from_cur, double weight) {
-    std::vector<Seen> out;
+std::vector<SeenMetric> seen_in(const Blocks& blocks, const ViewCamera& camera,
+                                const LatticeField& ref_from_cur, double weight) {
+    std::vector<SeenMetric> out;
     if (blocks.unknowns() == 0) return out;
     const Eigen::VectorXd depth = blocks.log_depths();
     for (int j = 0; j < blocks.size().height; ++j) {
@@ -207,7 +201,7 @@ std::vector<Seen> seen_in(const Blocks& blocks, const ViewCamera& camera,
             const Block& block = blocks.at(i, j);
             if (block.unknown < 0 || !blocks.smooth(i, j)) continue;
             const Vec2 at = blocks.centre(i, j);
-            Metric g = metric_of(block, camera.ray(at), camera.focal_px);
+            Metric g = metric_of_block(block, camera.ray(at), camera.focal_px);
             // Long double: see docs/decisions/0002-determinism.md.
             const auto squared =
                 static_cast<double>(std::exp(2 * static_cast<long double>(depth[block.unknown])));
@@ -221,9 +215,9 @@ std::vector<Seen> seen_in(const Blocks& blocks, const ViewCamera& camera,
 }
 
 // By how much the areas differ from what the field holds; empty if they do not meet.
-std::optional<double> area_off(const MetricField& field, const std::vector<Seen>& seen) {
+std::optional<double> area_off(const MetricField& field, const std::vector<SeenMetric>& seen) {
     std::vector<double> off;
-    for (const Seen& s : seen)
+    for (const SeenMetric& s : seen)
         if (const auto before = field.log_area(s.place))
             off.push_back(log_area(s.metric) - *before);
     if (off.empty()) return std::nullopt;
@@ -245,15 +239,15 @@ std::optional<ImageF3> view_normals(ViewF3 normals, ViewU8x1 matte, const ViewCa
             const glm::dvec3 v(r[0] * n[0] + r[1] * n[1] + r[2] * n[2],
                                -(r[3] * n[0] + r[4] * n[1] + r[5] * n[2]),
                                r[6] * n[0] + r[7] * n[1] + r[8] * n[2]);
-            const double size = length(v);
+            const double size = glm::length(v);
             if (!(size > 1e-6 && size < 1e6)) continue;
             for (int c = 0; c < 3; ++c)
                 out.pixel(x, y)[c] = static_cast<float>(v[c] / size);
             if (matte.row(y)[x] != 255) continue;
             const glm::dvec3 ray = camera.ray(centre_of_pixel(x, y));
             ++all;
-            facing[0] += dot(v, ray) < 0;
-            facing[1] += dot(v * glm::dvec3(1, 1, -1), ray) < 0;
+            facing[0] += glm::dot(v, ray) < 0;
+            facing[1] += glm::dot(v * glm::dvec3(1, 1, -1), ray) < 0;
         }
     }
     const bool turn = facing[1] > facing[0];
@@ -268,14 +262,14 @@ std::optional<ImageF3> view_normals(ViewF3 normals, ViewU8x1 matte, const ViewCa
 void add_normals(MetricField& field, ViewF3 normals, ViewU8x1 matte, const ViewCamera& camera,
                  const LatticeField& ref_from_cur, double weight) {
     const Blocks blocks(normals, matte, camera, std::max(2, field.spacing() / 2));
-    const std::vector<Seen> seen = seen_in(blocks, camera, ref_from_cur, weight);
+    const std::vector<SeenMetric> seen = seen_in(blocks, camera, ref_from_cur, weight);
     double scale = 1;
     if (field.has_evidence()) {
         const auto off = area_off(field, seen);
         if (!off) return;
         scale = static_cast<double>(std::exp(-static_cast<long double>(*off)));
     }
-    for (const Seen& s : seen)
+    for (const SeenMetric& s : seen)
         field.add(s.place, {scale * s.metric.xx, scale * s.metric.xy, scale * s.metric.yy},
                   s.weight);
 }

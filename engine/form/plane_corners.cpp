@@ -9,9 +9,9 @@
 namespace weft {
 namespace {
 
-constexpr int kPlaces = 24;      // along the longer side of the box
-constexpr double kFirst = 0.02;  // half side of the rectangle before it grows, by the box
-constexpr double kStep = 0.02;   // by which a side moves
+constexpr int kPlaces = 24;         // along the longer side of the box
+constexpr double kFirst = 0.02;     // half side of the rectangle before it grows, by the box
+constexpr double kSideStep = 0.02;  // by which a side moves
 constexpr int kRounds = 200;
 constexpr double kMostOff = 0.008;  // by the box, of the form of a pass that shows a plane
 
@@ -131,7 +131,7 @@ std::optional<Quad<float>> plane_corners(const FormMap& form, ViewU8x1 matte) {
     if (!growing.fits(first)) return std::nullopt;
     Quad<float> out{};
     std::size_t k = 0;
-    for (const Vector2& corner : Growing::corners(growing.grown(first, kStep))) {
+    for (const Vector2& corner : Growing::corners(growing.grown(first, kSideStep))) {
         const Vector2 p = (*map * corner.homogeneous()).hnormalized() * side;
         out[k++] = middle + Vec2(static_cast<float>(p.x()), static_cast<float>(p.y()));
     }

@@ -5,33 +5,27 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "engine/form/eigen_types.h"
+#include "engine/form/exact_math.h"
 #include "engine/form/plane_starts.h"
 #include "engine/form/rigid_bundle.h"
+#include "engine/form/unit_vector.h"
 
 namespace weft {
 namespace {
 
 constexpr double kHand_px = 1;  // how exactly a line is drawn, at the picture's long side kSide
 constexpr double kSide = 960;
-constexpr double kKnown = 1e-3;  // deviation of a tangent that is given
-constexpr double kLeastNearness = 0.02;
-constexpr double kStep = 1e-6;  // of the numeric derivatives
-constexpr int kSteps = 40;
-
-using Vector4 = Eigen::Vector4d;
-using Matrix4 = Eigen::Matrix4d;
+constexpr double kLeastPlaneNearness = 0.02;
+constexpr double kDerivativeStep = 1e-6;  // of the numeric derivatives
+constexpr int kPlaneSteps = 40;
 
 // Slopes, tangent, and the direction of `along`: in view space, unit, not yet in the plane.
 struct Guess {
     double slope_x = 0, slope_y = 0, tangent = 1;
     glm::dvec3 direction{1, 0, 0};
 };
-
-glm::dvec3 unit(const glm::dvec3& v) {
-    return v / std::sqrt(glm::dot(v, v));
-}
 
 class Lines {
   public:
@@ -42,7 +36,7 @@ class Lines {
             0.5f * Vec2(static_cast<float>(picture.width), static_cast<float>(picture.height));
         flat_.long_side = std::max(picture.width, picture.height);
         sigma_ = kHand_px * flat_.long_side / kSide;
-        if (tangent) prior_.tangent = *tangent, prior_.tangent_deviation = kKnown;
+        if (tangent) prior_.tangent = *tangent, prior_.tangent_deviation = kGivenTangentDeviation;
         glm::dvec2 sum{0};
         const auto each = [&](auto&& visit) {
             for (const auto* group : {&along_, &across_})
@@ -59,7 +53,7 @@ class Lines {
 
     [[nodiscard]] std::vector<Guess> starts() const {
         std::vector<double> tangents(kStartTangents.begin(), kStartTangents.end());
-        if (prior_.tangent_deviation == kKnown) tangents = {prior_.tangent};
+        if (prior_.tangent_deviation == kGivenTangentDeviation) tangents = {prior_.tangent};
         std::vector<Guess> out;
         for (const double tangent : tangents)
             for (const glm::dvec2& slope : start_slopes())
@@ -79,9 +73,9 @@ class Lines {
         if (at.size() == 0) return false;
         Eigen::Matrix<double, Eigen::Dynamic, 4> slopes(at.size(), 4);
         for (int k = 0; k < 4; ++k) {
-            const Eigen::VectorXd moved = errors(stepped(g, kStep * Vector4::Unit(k)));
+            const Eigen::VectorXd moved = errors(stepped(g, kDerivativeStep * Vector4::Unit(k)));
             if (moved.size() == 0) return false;
-            slopes.col(k) = (moved - at) / kStep;
+            slopes.col(k) = (moved - at) / kDerivativeStep;
         }
         matrix = slopes.transpose() * slopes;
         right = -slopes.transpose() * at;
@@ -152,7 +146,7 @@ class Lines {
         for (const auto* group : {&along_, &across_})
             for (const PictureLine& line : *group)
                 for (const glm::dvec2& end : {line.from, line.to})
-                    if (nearness(g, end) < kLeastNearness) return {};
+                    if (nearness(g, end) < kLeastPlaneNearness) return {};
         const glm::dvec3 n = unit(normal(g));
         const glm::dvec3 first = unit(g.direction - n * glm::dot(n, g.direction)),
                          second = glm::cross(n, first);
@@ -177,7 +171,7 @@ class Lines {
 
 Guess descended(const Lines& lines, Guess at) {
     double before = lines.cost(at), damping = 1e-3;
-    for (int k = 0; k < kSteps && damping < 1e8; ++k) {
+    for (int k = 0; k < kPlaneSteps && damping < 1e8; ++k) {
         Matrix4 matrix;
         Vector4 right;
         if (!lines.linearise(at, matrix, right)) return at;
@@ -196,12 +190,6 @@ Guess descended(const Lines& lines, Guess at) {
         if (enough) break;
     }
     return at;
-}
-
-double degrees_of_cosine(double c) {
-    // Long double: see docs/decisions/0002-determinism.md.
-    return static_cast<double>(std::acos(static_cast<long double>(std::clamp(c, -1.0, 1.0))) * 180 /
-                               std::numbers::pi_v<long double>);
 }
 
 }  // namespace

@@ -6,24 +6,21 @@
 #include <limits>
 #include <utility>
 
+#include "engine/form/eigen_types.h"
 #include "engine/form/rigid_pose.h"
 
 namespace weft {
 namespace {
 
-constexpr double kOutlier = 25;  // square of an error, in σ, at which it counts by half
 constexpr double kLeastTangent = 0.15, kMostTangent = 3;
 constexpr double kEnough = 1e-4;  // gain of a step, in units of the cost
 
-using Vector3 = Eigen::Vector3d;
-using Matrix3 = Eigen::Matrix3d;
-
-// The error bounded: s / (1 + s / kOutlier), and its slope.
-double bounded(double square) {
-    return square / (1 + square / kOutlier);
+// The error bounded: s / (1 + s / kOutlierSquare), and its slope.
+double bounded_error(double square) {
+    return square / (1 + square / kOutlierSquare);
 }
 double slope_of_bounded(double square) {
-    const double d = 1 + square / kOutlier;
+    const double d = 1 + square / kOutlierSquare;
     return 1 / (d * d);
 }
 
@@ -44,8 +41,8 @@ double nearness_by(const RigidSurface& s, const double* terms) {
 }
 
 // The error of one match, px; not finite behind the camera.
-Eigen::Vector2d error_of(const RigidSurface& s, const RigidPose& pose, double rho, Vec2 reference,
-                         Vec2 frame) {
+Eigen::Vector2d match_error(const RigidSurface& s, const RigidPose& pose, double rho,
+                            Vec2 reference, Vec2 frame) {
     const Vector3 q = pose.rotation * ray_of(s, reference) + rho * pose.shift;
     const double focal = s.long_side / s.tangent;
     if (!(q.z() > 1e-3 && rho > 1e-3))
@@ -110,11 +107,11 @@ double RigidBundle::cost_of(const RigidSurface& surface,
         for (std::size_t i = 0; i < m.reference.size(); ++i) {
             const double rho = nearness_by(surface, &terms_[f][count * i]);
             const double square =
-                error_of(surface, poses[f], rho, m.reference[i], m.frame[i]).squaredNorm() /
+                match_error(surface, poses[f], rho, m.reference[i], m.frame[i]).squaredNorm() /
                 (sigma_px_ * sigma_px_);
             // Behind the camera nothing is seen.
             if (!std::isfinite(square)) return std::numeric_limits<double>::infinity();
-            sum += bounded(square);
+            sum += bounded_error(square);
         }
         out += kIndependent / (2 * static_cast<double>(m.reference.size())) * sum;
     }
@@ -138,7 +135,7 @@ RigidBundle::System RigidBundle::linearised() const {
             const double* terms = &terms_[f][count * i];
             const double rho = nearness_by(surface_, terms);
             const Eigen::Vector2d error =
-                error_of(surface_, poses_[f], rho, m.reference[i], m.frame[i]);
+                match_error(surface_, poses_[f], rho, m.reference[i], m.frame[i]);
             const Vector3 turned = poses_[f].rotation * ray_of(surface_, m.reference[i]);
             const Vector3 q = turned + rho * poses_[f].shift;
             // By a step of q.
@@ -232,7 +229,7 @@ double RigidBundle::residual_px() const {
         for (std::size_t i = 0; i < m.reference.size(); ++i) {
             const double rho = nearness_by(surface_, &terms_[f][count * i]);
             squares.push_back(
-                error_of(surface_, poses_[f], rho, m.reference[i], m.frame[i]).squaredNorm());
+                match_error(surface_, poses_[f], rho, m.reference[i], m.frame[i]).squaredNorm());
         }
     }
     if (squares.empty()) return 0;

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "engine/core/parallel.h"
+#include "engine/form/eigen_types.h"
+#include "engine/form/exact_math.h"
 #include "engine/form/homography_fit.h"
 #include "engine/form/plane_starts.h"
 #include "engine/form/rigid_bundle.h"
@@ -19,30 +21,17 @@ namespace weft {
 namespace {
 
 constexpr std::size_t kLeastFrames = 2, kLeastPairs = 12;
-constexpr double kTrackError = 0.2 / 854;  // of a track that fits well, by the long side
-constexpr double kNotRigid = 0.3;          // of the motion beyond a similarity that may be left
+constexpr double kNotRigid = 0.3;  // of the motion beyond a similarity that may be left
 constexpr int kFirstSteps = 4, kMoreSteps = 30;
 constexpr std::size_t kKept = 6;
-constexpr double kKnown = 1e-3;    // deviation of a tangent that is given
 constexpr double kSure = 0.12;     // deviation from which on one tangent is enough to start from
 constexpr double kBulge = 0.15;    // of nearness, from which a curved surface is looked for
 constexpr double kApart = 0.02;    // ln stretch between solutions that are two
 constexpr double kImpossible = 1;  // ln stretch from a shape that cannot be there
 
-using Vector3 = Eigen::Vector3d;
-using Matrix3 = Eigen::Matrix3d;
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
-// Long double: see docs/decisions/0002-determinism.md.
-double ln(double v) {
-    return static_cast<double>(std::log(static_cast<long double>(v)));
-}
-double degrees_of_cosine(double c) {
-    return static_cast<double>(std::acos(static_cast<long double>(std::clamp(c, -1.0, 1.0))) * 180 /
-                               std::numbers::pi_v<long double>);
-}
-
-Vector3 ray_of(const RigidSurface& s, Vec2 place) {
+Vector3 ray_towards(const RigidSurface& s, Vec2 place) {
     return {s.tangent * (static_cast<double>(place.x) - s.middle.x) / s.long_side,
             s.tangent * (static_cast<double>(place.y) - s.middle.y) / s.long_side, 1};
 }
@@ -77,7 +66,7 @@ std::optional<RigidPose> pose_on(const RigidSurface& plane, const Matrix3& homog
     const double t = plane.tangent;
     const Matrix3 m =
         Vector3(t, t, 1).asDiagonal() * homography * Vector3(1 / t, 1 / t, 1).asDiagonal();
-    const Vector3 centre = ray_of(plane, plane.centre);
+    const Vector3 centre = ray_towards(plane, plane.centre);
     const double by = plane.long_side / plane.radius;
     Matrix32 along;
     along.col(0) = t * Vector3::UnitX() - by * plane.slope_x * centre;
@@ -178,7 +167,7 @@ std::optional<Problem> problem_of(const std::vector<FrameMatches>& frames, Size 
 
 // The solutions of `count` starts, in their order, without those that lead nowhere.
 template <class From>
-std::vector<RigidBundle> descended(std::size_t count, const From& from) {
+std::vector<RigidBundle> solutions_of(std::size_t count, const From& from) {
     std::vector<std::optional<RigidBundle>> found(count);
     parallel_for(count, [&](std::size_t k) { found[k] = from(k); });
     std::vector<RigidBundle> out;
@@ -201,7 +190,7 @@ std::vector<RigidBundle> planes(const Problem& problem, double sigma) {
             start.slope_y = slope.y;
         }
     }
-    std::vector<RigidBundle> all = descended(starts.size(), [&](std::size_t k) {
+    std::vector<RigidBundle> all = solutions_of(starts.size(), [&](std::size_t k) {
         auto bundle = problem.bundle_on(starts[k], sigma);
         if (bundle) bundle->descend(kFirstSteps);
         return bundle;
@@ -237,7 +226,7 @@ std::vector<RigidBundle> curved(const Problem& problem, const std::vector<RigidB
         starts.push_back({&plane, 0});
     for (const double bulge : {-kBulge, kBulge})
         starts.push_back({&from.front(), bulge});
-    std::vector<RigidBundle> out = descended(starts.size(), [&](std::size_t at) {
+    std::vector<RigidBundle> out = solutions_of(starts.size(), [&](std::size_t at) {
         const auto& [plane, bulge] = starts[at];
         RigidSurface start = plane->surface();
         start.relief.assign(RigidSurface::orders().size(), 0.0);
@@ -282,7 +271,7 @@ double beyond_similarity_px(const Problem& problem) {
 }
 
 double turn_of(const RigidSurface& surface, const std::vector<RigidPose>& poses) {
-    const Vector3 at = ray_of(surface, surface.centre) / surface.nearness(surface.centre);
+    const Vector3 at = ray_towards(surface, surface.centre) / surface.nearness(surface.centre);
     double cosine = 1;
     for (const RigidPose& pose : poses) {
         const Vector3 camera = -(pose.rotation.transpose() * pose.shift);
@@ -342,8 +331,9 @@ double RigidFit::belief() const {
 
 std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames, Size picture,
                                           std::optional<double> tangent) {
-    return fit_rigid_surface(frames, picture,
-                             tangent ? TangentBelief{*tangent, kKnown} : TangentBelief());
+    return fit_rigid_surface(
+        frames, picture,
+        tangent ? TangentBelief{*tangent, kGivenTangentDeviation} : TangentBelief());
 }
 
 std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frames, Size picture,

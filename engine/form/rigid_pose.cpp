@@ -3,19 +3,19 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/form/eigen_types.h"
+
 namespace weft {
 namespace {
 
-constexpr double kOutlier = 25;  // square of an error, in σ, at which it counts by half
-constexpr int kSteps = 30;
+constexpr int kPoseSteps = 30;
 constexpr double kStartTurn = 0.6;  // radians, of the further starts
 
-using Vector3 = Eigen::Vector3d;
-using Matrix3 = Eigen::Matrix3d;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-Eigen::Vector2d error_of(const RigidPose& pose, const ViewCamera& camera, const SeenPlace& seen) {
+Eigen::Vector2d place_error(const RigidPose& pose, const ViewCamera& camera,
+                            const SeenPlace& seen) {
     const Vector3 q = pose.rotation * seen.place + pose.shift;
     if (!(q.z() > 1e-9)) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
     return {camera.centre.x + camera.focal_px * q.x() / q.z() - seen.frame.x,
@@ -26,10 +26,10 @@ double cost_of(const RigidPose& pose, const ViewCamera& camera, const std::vecto
                double sigma_px) {
     double out = 0;
     for (const SeenPlace& s : seen) {
-        const double square = error_of(pose, camera, s).squaredNorm() / (sigma_px * sigma_px);
+        const double square = place_error(pose, camera, s).squaredNorm() / (sigma_px * sigma_px);
         // Behind the camera nothing is seen.
         if (!std::isfinite(square)) return std::numeric_limits<double>::infinity();
-        out += square / (1 + square / kOutlier);
+        out += square / (1 + square / kOutlierSquare);
     }
     return out;
 }
@@ -45,7 +45,7 @@ System linearised(const RigidPose& pose, const ViewCamera& camera,
     for (const SeenPlace& s : seen) {
         const Vector3 turned = pose.rotation * s.place;
         const Vector3 q = turned + pose.shift;
-        const Eigen::Vector2d error = error_of(pose, camera, s);
+        const Eigen::Vector2d error = place_error(pose, camera, s);
         Eigen::Matrix<double, 2, 3> by_q;
         by_q << 1, 0, -q.x() / q.z(), 0, 1, -q.y() / q.z();
         by_q *= camera.focal_px / q.z();
@@ -54,7 +54,7 @@ System linearised(const RigidPose& pose, const ViewCamera& camera,
         Eigen::Matrix<double, 2, 6> by_pose;
         by_pose.leftCols<3>() = -by_q * cross;
         by_pose.rightCols<3>() = by_q;
-        const double bound = 1 + error.squaredNorm() / (sigma_px * sigma_px) / kOutlier;
+        const double bound = 1 + error.squaredNorm() / (sigma_px * sigma_px) / kOutlierSquare;
         const double w = 1 / (bound * bound);
         out.matrix += w * by_pose.transpose() * by_pose;
         out.right -= w * by_pose.transpose() * error;
@@ -66,7 +66,7 @@ System linearised(const RigidPose& pose, const ViewCamera& camera,
 double descend(RigidPose& pose, const ViewCamera& camera, const std::vector<SeenPlace>& seen,
                double sigma_px) {
     double cost = cost_of(pose, camera, seen, sigma_px), damping = 1e-3;
-    for (int step = 0; step < kSteps && std::isfinite(cost); ++step) {
+    for (int step = 0; step < kPoseSteps && std::isfinite(cost); ++step) {
         const System system = linearised(pose, camera, seen, sigma_px);
         double gain = -1;
         while (gain < 0 && damping < 1e8) {
@@ -125,7 +125,7 @@ RigidPose pose_of(const std::vector<SeenPlace>& seen, const ViewCamera& camera, 
 }
 
 double error_px(const RigidPose& pose, const ViewCamera& camera, const SeenPlace& seen) {
-    return error_of(pose, camera, seen).norm();
+    return place_error(pose, camera, seen).norm();
 }
 
 }  // namespace weft

@@ -6,26 +6,22 @@
 #include <cstddef>
 #include <limits>
 
+#include "engine/form/eigen_types.h"
 #include "engine/form/rigid_pose.h"
 
 namespace weft {
 namespace {
 
-constexpr double kTrackError = 0.2 / 854;  // of a track that fits well, by the long side
 // Of how far the picture moves: what distortion and a rolling shutter leave of a turn.
 constexpr double kLensError = 0.01;
 // From what it explains. Cameras that pan and zoom leave 0.4 to 1.2, surfaces whose form was found
 // rightly 7 to 53.
 constexpr double kParallax = 1.5;
-constexpr std::size_t kLeastPairs = 6;
-constexpr int kSteps = 12;
+constexpr std::size_t kLeastTurnPairs = 6;
+constexpr int kTurnSteps = 12;
 // Horizontal fields of view of 17° to 77°.
-constexpr double kLeastTangent = 0.3, kTangentStep = 0.1;
+constexpr double kFirstTangent = 0.3, kTangentStep = 0.1;
 constexpr int kTangents = 14;
-
-using Vector3 = Eigen::Vector3d;
-using Vector4 = Eigen::Vector4d;
-using Matrix4 = Eigen::Matrix4d;
 
 // The pictures of one frame and the reference frame in units of the long side, from the middle.
 struct Pairs {
@@ -82,7 +78,7 @@ double residual(const Pairs& pairs, double tangent) {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     double zoom = 1, damping = 1e-4;
     Step now = step_at(pairs, tangent, turn, zoom);
-    for (int k = 0; k < kSteps; ++k) {
+    for (int k = 0; k < kTurnSteps; ++k) {
         Matrix4 damped = now.normal;
         damped.diagonal() *= 1 + damping;
         const Vector4 by = damped.ldlt().solve(-now.slope);
@@ -104,11 +100,11 @@ double residual(const Pairs& pairs, double tangent) {
 double beyond_still_camera(const std::vector<FrameMatches>& frames, Size picture) {
     std::vector<Pairs> all;
     for (const FrameMatches& matches : frames)
-        if (matches.reference.size() >= kLeastPairs) all.push_back(pairs_of(matches, picture));
+        if (matches.reference.size() >= kLeastTurnPairs) all.push_back(pairs_of(matches, picture));
     double least = std::numeric_limits<double>::infinity();
     if (all.empty()) return least;
     for (int k = 0; k < kTangents; ++k) {
-        const double tangent = kLeastTangent + k * kTangentStep;
+        const double tangent = kFirstTangent + k * kTangentStep;
         double squares = 0;
         for (const Pairs& pairs : all) {
             const double off = residual(pairs, tangent) / (kTrackError + kLensError * pairs.moved);

@@ -8,6 +8,8 @@
 
 namespace weft {
 
+constexpr double kTrackError = 0.2 / 854;  ///< Of a track that fits well, by the long side.
+
 /// How far matches are from what a camera at one place shows, which turns and zooms: the residual
 /// of each frame over what tracks and lenses are known to be off by (0.2 px at 854 px and 1 % of
 /// how far the picture moves), root mean square over the frames, under the field of view that

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kBaseSigma_px = 12.0f;  // of B, the base of the texture's V
 constexpr float kMinBase = 0.02f;       // display V
-constexpr int kBand = 8;
+constexpr int kTextureBand = 8;
 
 bool usable(float light) {
     return std::isfinite(light) && light > 0;
@@ -49,7 +49,7 @@ void set_display_value(float* rgb, float value, float new_value) {
 // B: the texture's display V under a Gaussian, from the pixels inside the matte.
 ImageF1 texture_base(ViewF3 texture, ViewU8x1 matte) {
     ImageF1 base(texture.size()), weight(texture.size());
-    parallel_rows(texture.height(), kBand, [&](int y0, int y1) {
+    parallel_rows(texture.height(), kTextureBand, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < texture.width(); ++x) {
                 const float value = matte.row(y)[x] ? display_value(texture.pixel(x, y)) : 0.0f;
@@ -114,7 +114,7 @@ void apply_light(ImageView<float, 3> texture, Vec2i origin, ViewU8x1 matte, cons
     if (options.form == LightForm::kGain && !usable(reference)) return;
     ImageF1 base;
     if (options.form == LightForm::kDetail) base = texture_base(texture, matte);
-    parallel_rows(texture.height(), kBand, [&](int y0, int y1) {
+    parallel_rows(texture.height(), kTextureBand, [&](int y0, int y1) {
         std::vector<float> blended, light(static_cast<std::size_t>(texture.width()));
         for (int y = y0; y < y1; ++y) {
             shading_row(shading, origin.x, origin.y + y, blended, light);

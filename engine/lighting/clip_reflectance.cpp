@@ -31,7 +31,7 @@ constexpr Share kMiddle{1, 2}, kUpperQuarter{3, 4};
 // shadow.
 constexpr Share kLit{4, 5};
 
-float quantile(std::vector<float>& values, Share share) {
+float quantile_at(std::vector<float>& values, Share share) {
     const auto n = static_cast<std::ptrdiff_t>(values.size());
     const auto at = values.begin() + std::min(n - 1, n * share[0] / share[1]);
     std::nth_element(values.begin(), at, values.end());
@@ -155,7 +155,7 @@ ImageF1 ReflectanceGatherer::over_time(const Recti& box, std::array<std::ptrdiff
                 }
                 if (static_cast<int>(values.size()) < kFewestFrames) continue;
                 known.row(y)[x] = 1;
-                out.row(y)[x] = quantile(values, share);
+                out.row(y)[x] = quantile_at(values, share);
             }
         }
     });
@@ -181,7 +181,7 @@ void ReflectanceGatherer::find_levels(const Recti& box) {
                         differences.push_back(part.luma.row(v)[u] - usual.row(y)[x]);
                 }
             }
-            if (!differences.empty()) part.level = quantile(differences, kUpperQuarter);
+            if (!differences.empty()) part.level = quantile_at(differences, kUpperQuarter);
         }
     }
 }

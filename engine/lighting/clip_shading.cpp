@@ -41,8 +41,8 @@ ImageF1 detail_of(const ImageF1& plane, const ImageF1& weight, const ImageF1& to
 }
 
 // Bilinear lookup of a canvas' plane; false where any corner is unknown.
-bool lookup(const ClipReflectance& r, const ImageF1& plane, float u, float v, float& value,
-            float& confidence) {
+bool look_up_canvas(const ClipReflectance& r, const ImageF1& plane, float u, float v, float& value,
+                    float& confidence) {
     u -= static_cast<float>(r.box.x0), v -= static_cast<float>(r.box.y0);
     if (!(u >= 0 && v >= 0 && u < static_cast<float>(r.box.width() - 1) &&
           v < static_cast<float>(r.box.height() - 1)))
@@ -75,8 +75,8 @@ Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2&
                 const float u = static_cast<float>(x + s.box.x0) + d[0];
                 const float v = static_cast<float>(y + s.box.y0) + d[1];
                 float value = 0, doubt = 0, confidence = 0;
-                if (!lookup(r, r.value, u, v, value, confidence)) continue;
-                (void)lookup(r, r.doubt, u, v, doubt, confidence);
+                if (!look_up_canvas(r, r.value, u, v, value, confidence)) continue;
+                (void)look_up_canvas(r, r.doubt, u, v, doubt, confidence);
                 seen.value.row(y)[x] = value;
                 seen.doubt.row(y)[x] = doubt;
                 seen.known.row(y)[x] = s.weight.row(y)[x] * confidence;
@@ -89,7 +89,7 @@ Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2&
 // How much of the reflectance's detail the frame shows at its place, 0 to 1, by window: the slope
 // of one on the other. Shadows and their edges exist in the frame only, so they are limited to the
 // size of the reflectance's detail.
-ImageF1 agreement(const SurfaceSample& s, const Seen& seen) {
+ImageF1 detail_shown(const SurfaceSample& s, const Seen& seen) {
     ImageF1 total = seen.known;
     box_blur(total, kDetailRadius);
     const ImageF1 frame = detail_of(s.luma, seen.known, total);
@@ -162,7 +162,7 @@ Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflect
                      const ImageF2& ref_from_cur, const ShadingOptions& options) {
     if (sample.box.empty() || reflectance.box.empty()) return shading_of(sample, options);
     const Seen seen = moved_here(sample, reflectance, ref_from_cur);
-    const ImageF1 share = agreement(sample, seen);
+    const ImageF1 share = detail_shown(sample, seen);
     ImageF1 lit = sample.luma;
     for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
         lit.data()[i] -= seen.value.data()[i];

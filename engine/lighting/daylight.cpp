@@ -12,12 +12,12 @@
 namespace weft {
 namespace {
 
-constexpr int kReducedWidth = 320;     // pixels, about: finer structure is paint or noise
-constexpr float kFloor = 0.02f;        // of the median luma, added before the logarithm
-constexpr int kBlock = 10, kStep = 5;  // reduced pixels
-constexpr float kVaries = 0.12f;       // ln luma: deviation of a block that has a say
-constexpr float kExplained = 0.8f;     // share of its colours' energy that goes with its luma
-constexpr float kAstray = 0.3f;        // of the slope: the most across daylight's direction
+constexpr int kReducedWidth = 320;          // pixels, about: finer structure is paint or noise
+constexpr float kFloor = 0.02f;             // of the median luma, added before the logarithm
+constexpr int kBlock = 10, kBlockStep = 5;  // reduced pixels
+constexpr float kVaries = 0.12f;            // ln luma: deviation of a block that has a say
+constexpr float kExplained = 0.8f;          // share of its colours' energy that goes with its luma
+constexpr float kAstray = 0.3f;             // of the slope: the most across daylight's direction
 constexpr float kLeastSlope = 0.05f, kMostSlope = 0.5f;
 constexpr int kBins = 45;                     // between them
 constexpr int kAgree = 7;                     // bins to each side of the slope that agree with it
@@ -101,8 +101,8 @@ Daylight find_daylight(ViewF3 linear) {
     const LogColours logs = reduced_logs(linear);
     std::array<double, kBins> bins{}, slopes{};
     double all = 0;
-    for (int y = 0; y + kBlock <= logs.luma.height(); y += kStep) {
-        for (int x = 0; x + kBlock <= logs.luma.width(); x += kStep) {
+    for (int y = 0; y + kBlock <= logs.luma.height(); y += kBlockStep) {
+        for (int x = 0; x + kBlock <= logs.luma.width(); x += kBlockStep) {
             const Vote vote = vote_of(logs, x, y);
             all += vote.weight;
             if (!vote.agrees) continue;

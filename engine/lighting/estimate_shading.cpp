@@ -35,7 +35,7 @@ constexpr float kStepSigma = 0.6f;  // times the blur's
 
 constexpr float kRemains = 3.0f;  // deviations
 // Of a pattern's deviation: the most that can be left of it.
-constexpr float kRemainsOfPattern = 0.12f;
+constexpr float kMostLeftOfPattern = 0.12f;
 
 // The share of the deviation from a quadratic that a quartic explains: below kFlatForm the surface
 // is treated as flat, above kBentForm as curved. Measured: 0.05 on a wall, 0.17 on a ball.
@@ -147,7 +147,7 @@ ImageF1 without_pattern(const ImageF1& luma, const ImageF1& weight, float patter
     ImageF1 light =
         joint_bilateral(weighted(guide, weight), weight, guide, {kStepSigma * sigma, kStepRange});
     remove_remains(light, weight, deviation_between(luma, light, weight),
-                   kRemainsOfPattern * presence);
+                   kMostLeftOfPattern * presence);
     return light;
 }
 

@@ -7,15 +7,15 @@
 namespace weft {
 namespace {
 
-constexpr float kBlack = 0.004f;  // an 8-bit albedo is not reliable below
-constexpr float kBrightest = 64.0f;
+constexpr float kBlackAlbedo = 0.004f;  // an 8-bit albedo is not reliable below
+constexpr float kBrightestLight = 64.0f;
 
 std::array<float, 3> light_at(const float* plate, const float* albedo) {
     std::array<float, 3> light{};
     float sum = 0;
     int known = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-        light[c] = albedo[c] > kBlack ? plate[c] / albedo[c] : -1.0f;
+        light[c] = albedo[c] > kBlackAlbedo ? plate[c] / albedo[c] : -1.0f;
         if (light[c] >= 0) sum += light[c], ++known;
     }
     for (float& l : light)
@@ -38,7 +38,7 @@ void apply_exact_light(ImageView<float, 3> texture, ViewF3 plate, ViewF3 albedo,
             for (std::size_t c = 0; c < 3; ++c) {
                 if (!std::isfinite(light[c])) continue;
                 texture.pixel(x, y)[c] *=
-                    1 + strength * (std::clamp(light[c], 0.0f, kBrightest) - 1);
+                    1 + strength * (std::clamp(light[c], 0.0f, kBrightestLight) - 1);
             }
         }
     }

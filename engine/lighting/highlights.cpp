@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
+#include "engine/core/finite_rgb.h"
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
+#include "engine/lighting/coverage.h"
 #include "engine/lighting/masked_filters.h"
+#include "engine/lighting/quantile.h"
 #include "engine/lighting/shading_lookup.h"
 
 namespace weft {
@@ -17,10 +19,9 @@ namespace {
 
 using Colour = std::array<float, 3>;
 
-constexpr int kCovered = 128;
 constexpr float kPaintQuantile = 0.98f;  // of plate / shading: values above may be gloss
 constexpr float kGlossAbove = 1.15f;
-constexpr std::size_t kFewest = 64;    // pixels
+constexpr std::size_t kFewestPixels = 64;
 constexpr float kDarkShare = 0.2f;     // the darkest pixels, whose colour is noise
 constexpr float kBodyQuantile = 0.9f;  // of the saturation
 // The sine of the angle between both colours: told apart from kApart on.
@@ -28,15 +29,10 @@ constexpr float kAlike = 0.08f, kApart = 0.2f;
 // What both colours leave unexplained, of all: several paints from kSeveral on.
 constexpr float kOnePaint = 0.05f, kSeveral = 0.12f;
 constexpr float kRoughest = 0.03f;  // of the plate's width
-constexpr float kLeastWeight = 1e-3f;
 
 // What the colours do not decide.
 float rest_of(const SurfaceColours& colours) {
     return 1.0f - colours.confidence;
-}
-
-bool finite(const float* p) {
-    return std::isfinite(p[0] + p[1] + p[2]);
 }
 
 float dot(const Colour& a, const float* b) {
@@ -48,13 +44,6 @@ Colour of_luminance_one(Colour c) {
     for (float& channel : c)
         channel /= luma;
     return c;
-}
-
-float quantile(std::vector<float> values, float share) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
 }
 
 // How much of a pixel is body and how much mirrored light, by least squares.
@@ -84,12 +73,12 @@ std::vector<const float*> pixels_of(ViewF3 plate, ViewU8x1 matte) {
     for (int y = 0; y < plate.height(); ++y) {
         for (int x = 0; x < plate.width(); ++x) {
             const float* p = plate.pixel(x, y);
-            if (matte.row(y)[x] < kCovered || !finite(p)) continue;
+            if (matte.row(y)[x] < kCoveredFrom || !finite_rgb(p)) continue;
             out.push_back(p);
             lumas.push_back(luma_709(p));
         }
     }
-    if (out.size() < kFewest) return {};
+    if (out.size() < kFewestPixels) return {};
     const float dark = std::max(quantile(lumas, kDarkShare), 1e-5f);
     std::erase_if(out, [&](const float* p) { return luma_709(p) < dark; });
     return out;
@@ -113,7 +102,7 @@ void roughen(ImageF1& gloss, ViewU8x1 matte, const HighlightOptions& options) {
     ImageF1 known(gloss.size());
     for (int y = 0; y < gloss.height(); ++y)
         for (int x = 0; x < gloss.width(); ++x)
-            known.row(y)[x] = matte.row(y)[x] >= kCovered ? 1.0f : 0.0f;
+            known.row(y)[x] = matte.row(y)[x] >= kCoveredFrom ? 1.0f : 0.0f;
     gloss = weighted(gloss, known);
     gaussian_blur(gloss, sigma_px);
     gaussian_blur(known, sigma_px);
@@ -129,12 +118,11 @@ float brightest_paint(ViewF3 plate, ViewU8x1 matte, Vec2i origin, const Shading&
         for (int x = 0; x < plate.width(); ++x) {
             const float* p = plate.pixel(x, y);
             const float s = light[static_cast<std::size_t>(x)];
-            if (matte.row(y)[x] >= kCovered && finite(p) && s > 0)
+            if (matte.row(y)[x] >= kCoveredFrom && finite_rgb(p) && s > 0)
                 ratios.push_back(luma_709(p) / s);
         }
     }
-    return ratios.size() < kFewest ? 0.0f
-                                   : kGlossAbove * quantile(std::move(ratios), kPaintQuantile);
+    return ratios.size() < kFewestPixels ? 0.0f : kGlossAbove * quantile(ratios, kPaintQuantile);
 }
 
 // The luminance of what is mirrored: by the colours, and for the rest by its motion.
@@ -147,7 +135,7 @@ ImageF1 mirrored_light(ViewF3 plate, ViewU8x1 matte, const SurfaceColours& colou
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < out.width(); ++x) {
                 const float* p = plate.pixel(x, y);
-                if (matte.row(y)[x] == 0 || !finite(p)) continue;
+                if (matte.row(y)[x] == 0 || !finite_rgb(p)) continue;
                 float& found = out.row(y)[x];
                 if (colours.confidence > 0)
                     found = colours.confidence * mirrored(parts, colours, p);
@@ -170,7 +158,7 @@ void add_excess(ImageF3& gloss, Vec2i origin, ViewF3 plate, ViewU8x1 matte, cons
             shading_row(shading, origin.x, origin.y + y, scratch, row);
             for (int x = 0; x < gloss.width(); ++x) {
                 const float* p = plate.pixel(x, y);
-                if (matte.row(y)[x] == 0 || !finite(p)) continue;
+                if (matte.row(y)[x] == 0 || !finite_rgb(p)) continue;
                 const float luma = luma_709(p);
                 float excess = luma - paint * row[static_cast<std::size_t>(x)];
                 if (!moving.luminance.empty())
@@ -195,7 +183,7 @@ void add_mirrored(Highlights& out, ViewF3 plate, ViewU8x1 matte, const SurfaceCo
     for (int y = 0; y < out.gloss.height(); ++y) {
         for (int x = 0; x < out.gloss.width(); ++x) {
             const float* p = plate.pixel(x, y);
-            if (matte.row(y)[x] == 0 || !finite(p)) continue;
+            if (matte.row(y)[x] == 0 || !finite_rgb(p)) continue;
             const float luma = luma_709(p);
             if (luma > 0) out.body.row(y)[x] = 1 - taken * std::min(1.0f, sharp.row(y)[x] / luma);
             for (std::size_t c = 0; c < 3; ++c)
@@ -217,7 +205,8 @@ SurfaceColours surface_colours(ViewF3 plate, ViewU8x1 matte, const Colour& light
     saturations.reserve(pixels.size());
     for (const float* p : pixels)
         saturations.push_back(saturation(p));
-    const float least = quantile(saturations, kBodyQuantile);
+    std::vector<float> ordered = saturations;
+    const float least = quantile(ordered, kBodyQuantile);
     std::array<double, 3> sum{};
     for (std::size_t i = 0; i < pixels.size(); ++i)
         for (std::size_t c = 0; saturations[i] >= least && c < 3; ++c)

@@ -14,7 +14,6 @@ namespace {
 // Of the pattern's size: what is finer is paint, what is wider is light, and the window in which
 // the amplitude is taken.
 constexpr float kFine = 0.5f, kWide = 3.5f, kAround = 0.75f;
-constexpr float kLeastWeight = 1e-3f;
 // Amplitudes (ln units), measured on rendered scenes in draft: light is off by 15 % and more on
 // 2 % of the places below 0.1, on 30 % of those about 0.4 and on half of those above 0.6.
 constexpr float kSure = 0.05f, kLost = 0.6f;

@@ -9,8 +9,6 @@
 namespace weft {
 namespace {
 
-constexpr float kLeastWeight = 1e-3f;
-
 constexpr int kBand = 16;
 constexpr int kStrip = 64;  // columns that one task blurs vertically
 

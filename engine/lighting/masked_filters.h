@@ -6,6 +6,8 @@
 
 namespace weft {
 
+constexpr float kLeastWeight = 1e-3f;  ///< A sum of weights that is divided by, at least.
+
 /// Mean over (2 radius + 1)² pixels, in place. Pixels beyond the border count as 0.
 void box_blur(ImageF1& plane, int radius_px);
 

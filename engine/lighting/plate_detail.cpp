@@ -21,7 +21,7 @@ constexpr float kBroad_px = 28.0f;  // σ: what is finer is not broad light
 constexpr float kFine_px = 8.0f;    // σ: what is finer is detail of the surface
 constexpr float kNoise_px = 1.0f;   // radius of the mean that takes out grain
 constexpr std::uint8_t kSolid = 250;
-constexpr float kDark = 1e-4f;
+constexpr float kUnlit = 1e-4f;
 constexpr float kMostDetail = 1.5f;  // ln units
 
 float scaled_px(float size_px, int plate_width) {
@@ -70,10 +70,10 @@ LogLight log_light(const Shading* shading, ViewF3 linear, ViewU8x1 matte, Vec2i 
             if (shading) shading_row(*shading, origin.x, origin.y + y, scratch, row);
             for (int x = 0; x < size.width; ++x) {
                 const float s = row[static_cast<std::size_t>(x)];
-                out.shading.row(y)[x] = shading && s > kDark ? fast_log(s) : 0.0f;
+                out.shading.row(y)[x] = shading && s > kUnlit ? fast_log(s) : 0.0f;
                 const float* p = linear.pixel(origin.x + x, origin.y + y);
                 const float luma = luma_709(p);
-                if (matte.row(y)[x] < kSolid || !std::isfinite(luma) || !(luma > kDark)) continue;
+                if (matte.row(y)[x] < kSolid || !std::isfinite(luma) || !(luma > kUnlit)) continue;
                 out.plate.row(y)[x] = fast_log(luma);
                 out.known.row(y)[x] = 1;
             }

@@ -5,21 +5,15 @@
 #include <vector>
 
 #include "engine/core/luma.h"
+#include "engine/lighting/coverage.h"
+#include "engine/lighting/quantile.h"
 
 namespace weft {
 namespace {
 
-constexpr int kCovered = 128;
 constexpr float kBrightShare = 0.95f;
-constexpr float kDark = 1e-4f;  // less is black
-constexpr float kLeast = 1.0f / 16, kMost = 4.0f;
-
-float quantile(std::vector<float>& values, float share) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
+constexpr float kLeastLuma = 1e-4f;  // less is black
+constexpr float kLeastExposure = 1.0f / 16, kMostExposure = 4.0f;
 
 }  // namespace
 
@@ -30,15 +24,15 @@ float plate_exposure(ViewF3 plate, ViewU8x1 visible, const ExposureGreys& greys)
         for (int x = 0; x < plate.width(); ++x) {
             const float luma = luma_709(plate.pixel(x, y));
             if (!std::isfinite(luma)) continue;
-            all.push_back(std::clamp(luma, kDark, 1.0f));
-            if (visible.row(y)[x] >= kCovered) inside.push_back(std::max(kDark, luma));
+            all.push_back(std::clamp(luma, kLeastLuma, 1.0f));
+            if (visible.row(y)[x] >= kCoveredFrom) inside.push_back(std::max(kLeastLuma, luma));
         }
     }
     if (inside.empty()) return 1;
     const float here = std::log(quantile(inside, 0.5f) / greys.old_surface);
     const float whole = std::log(quantile(all, kBrightShare) / greys.bright);
     // The third belief, in the logarithm of an exposure of 1, adds nothing.
-    return std::clamp(std::exp((here + whole) / 3), kLeast, kMost);
+    return std::clamp(std::exp((here + whole) / 3), kLeastExposure, kMostExposure);
 }
 
 }  // namespace weft

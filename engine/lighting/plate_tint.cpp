@@ -8,31 +8,25 @@
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
+#include "engine/lighting/quantile.h"
 
 namespace weft {
 namespace {
 
-constexpr int kStep = 2;              // px: every second pixel is enough
-constexpr std::size_t kFewest = 256;  // pixels
-constexpr float kDark = 0.02f;        // of the plate's brightest; below this is noise
-constexpr float kClipped = 0.97f;     // of white, on a plate without values above it
-constexpr float kLeastOf = 0.01f;     // share of the pixels that may have another colour
+constexpr int kStep = 2;                      // px: every second pixel is enough
+constexpr std::size_t kFewestColoured = 256;  // pixels
+constexpr float kDarkOfBrightest = 0.02f;     // of the plate's brightest; below this is noise
+constexpr float kClipped = 0.97f;             // of white, on a plate without values above it
+constexpr float kLeastOf = 0.01f;             // share of the pixels that may have another colour
 constexpr float kNoTint = 0.0f, kSureTint = 0.3f;  // ln B/R of the least coloured pixels
 constexpr float kOtherShade = 0.1f;                // ln B/R the other way, in the shade
-constexpr float kMost = 1.0f;                      // ln units
+constexpr float kMostTint = 1.0f;                  // ln units
 constexpr float kLikelyShare = 0.6f;               // of the shades of grey that is light
 
 struct Pixel {
     float luma = 0;
     float blue_red = 0;  // ln B/R
 };
-
-float quantile(std::vector<float>& values, float share) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 float brightest(ViewF3 plate) {
     float most = 0;
@@ -52,7 +46,8 @@ struct Shades {
 
 Shades shades_of(ViewF3 plate) {
     const float peak = brightest(plate);
-    const float most = peak <= 1.0f ? kClipped : peak, dark = kDark * std::min(peak, 1.0f);
+    const float most = peak <= 1.0f ? kClipped : peak,
+                dark = kDarkOfBrightest * std::min(peak, 1.0f);
     std::array<double, 3> grey{};
     Shades out;
     for (int y = 0; y < plate.height(); y += kStep) {
@@ -66,7 +61,7 @@ Shades shades_of(ViewF3 plate) {
                 grey[c] += std::pow(static_cast<double>(p[c] / most), 6.0);
         }
     }
-    if (out.pixels.size() < kFewest) return {};
+    if (out.pixels.size() < kFewestColoured) return {};
     for (std::size_t c = 0; c < 3; ++c)
         out.grey[c] = static_cast<float>(std::log(grey[c]) / 6.0);
     return out;
@@ -107,7 +102,7 @@ std::array<float, 3> share_of(const std::array<float, 3>& grey, float share) {
         gain[c] = std::exp(share * (grey[c] - grey[1]));
     const float level = luma_709(gain.data());
     for (std::size_t c = 0; c < 3; ++c)
-        tint[c] = std::clamp(std::log(gain[c] / level), -kMost, kMost);
+        tint[c] = std::clamp(std::log(gain[c] / level), -kMostTint, kMostTint);
     return tint;
 }
 

@@ -6,23 +6,20 @@
 #include <vector>
 
 #include "engine/color/color_space.h"
+#include "engine/core/finite_rgb.h"
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
+#include "engine/lighting/coverage.h"
 #include "engine/lighting/fast_math.h"
 #include "engine/lighting/shading_lookup.h"
 
 namespace weft {
 namespace {
 
-constexpr int kCovered = 128;
-constexpr int kLevels = 1024;  // of a histogram over encoded luma from 0 to kBrightest
-constexpr float kBrightest = 4.0f;
+constexpr int kLevels = 1024;  // of a histogram over encoded luma from 0 to kBrightestLuma
+constexpr float kBrightestLuma = 4.0f;
 constexpr float kMaxCast = 1.0f;  // ln units
-constexpr float kDark = 1e-4f;
-
-bool finite(const float* p) {
-    return std::isfinite(p[0] + p[1] + p[2]);
-}
+constexpr float kLeastLight = 1e-4f;
 
 // Encoded luma of the covered, finite pixels.
 std::vector<float> lumas(ViewF3 picture, ViewU8x1 matte) {
@@ -30,7 +27,7 @@ std::vector<float> lumas(ViewF3 picture, ViewU8x1 matte) {
     for (int y = 0; y < picture.height(); ++y) {
         for (int x = 0; x < picture.width(); ++x) {
             const float* p = picture.pixel(x, y);
-            if (matte.row(y)[x] >= kCovered && finite(p))
+            if (matte.row(y)[x] >= kCoveredFrom && finite_rgb(p))
                 out.push_back(linear_to_srgb(std::max(0.0f, luma_709(p))));
         }
     }
@@ -44,7 +41,7 @@ void change_luma(ImageView<float, 3> texture, ViewU8x1 matte, float strength, co
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < texture.width(); ++x) {
                 float* p = texture.pixel(x, y);
-                if (matte.row(y)[x] == 0 || !finite(p)) continue;
+                if (matte.row(y)[x] == 0 || !finite_rgb(p)) continue;
                 const float was = luma_709(p);
                 if (!(was > 1e-6f)) continue;
                 const float luma = linear_to_srgb(was);
@@ -57,11 +54,11 @@ void change_luma(ImageView<float, 3> texture, ViewU8x1 matte, float strength, co
     });
 }
 
-struct Moments {
+struct MeanAndDeviation {
     float mean = 0, deviation = 0;
 };
 
-Moments moments(const std::vector<float>& values) {
+MeanAndDeviation moments(const std::vector<float>& values) {
     double sum = 0, squares = 0;
     for (const float v : values)
         sum += v, squares += static_cast<double>(v) * v;
@@ -75,7 +72,7 @@ Moments moments(const std::vector<float>& values) {
 std::vector<float> cumulative(const std::vector<float>& values) {
     std::vector<std::int64_t> counts(kLevels, 0);
     for (const float v : values) {
-        const float level = v / kBrightest * (kLevels - 1);
+        const float level = v / kBrightestLuma * (kLevels - 1);
         ++counts[static_cast<std::size_t>(
             std::clamp(level, 0.0f, static_cast<float>(kLevels - 1)))];
     }
@@ -95,7 +92,7 @@ void transfer_statistics(ImageView<float, 3> texture, ViewF3 plate, ViewU8x1 mat
                          float strength) {
     const std::vector<float> mine = lumas(texture, matte), old = lumas(plate, matte);
     if (mine.empty() || old.empty()) return;
-    const Moments from = moments(mine), to = moments(old);
+    const MeanAndDeviation from = moments(mine), to = moments(old);
     const float scale = from.deviation > 1e-5f ? to.deviation / from.deviation : 0.0f;
     change_luma(texture, matte, strength,
                 [&](float luma) { return to.mean + scale * (luma - from.mean); });
@@ -105,7 +102,7 @@ void match_histogram(ImageView<float, 3> texture, ViewF3 plate, ViewU8x1 matte, 
     const std::vector<float> mine = lumas(texture, matte), old = lumas(plate, matte);
     if (mine.empty() || old.empty()) return;
     const std::vector<float> from = cumulative(mine), to = cumulative(old);
-    constexpr float kStep = kBrightest / (kLevels - 1);
+    constexpr float kStep = kBrightestLuma / (kLevels - 1);
     std::vector<float> map(kLevels + 1);
     for (std::size_t k = 0; k <= kLevels; ++k) {
         const auto above = std::lower_bound(to.begin(), to.end(), from[k]);
@@ -140,10 +137,10 @@ LightColour light_colour(ViewF3 plate, ViewU8x1 matte, const Shading& shading) {
         shading_row(shading, 0, y, scratch, light);
         for (int x = 0; x < plate.width(); x += 2) {
             const float* p = plate.pixel(x, y);
-            if (matte.row(y)[x] < 250 || !finite(p)) continue;
+            if (matte.row(y)[x] < 250 || !finite_rgb(p)) continue;
             const float luma = luma_709(p);
-            if (!(luma > kDark) || !(std::min({p[0], p[1], p[2]}) > 0.05f * luma)) continue;
-            const double s = fast_log(std::max(kDark, light[static_cast<std::size_t>(x)]));
+            if (!(luma > kLeastLight) || !(std::min({p[0], p[1], p[2]}) > 0.05f * luma)) continue;
+            const double s = fast_log(std::max(kLeastLight, light[static_cast<std::size_t>(x)]));
             sums.n += 1, sums.s += s, sums.ss += s * s;
             for (std::size_t c = 0; c < 3; ++c) {
                 const double v = fast_log(p[c] / luma);

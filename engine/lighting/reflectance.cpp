@@ -19,7 +19,7 @@ namespace {
 constexpr int kTerms = 5;
 constexpr float kMaxDeviations = 3.0f;  // chromaticities beyond are clamped
 // Of the terms' variance, so that flat colours explain nothing.
-constexpr double kRidge = 0.02;
+constexpr double kTermRidge = 0.02;
 // Chromaticities (ln) that vary less than this are noise or come from the floor, not from paint.
 constexpr float kMinDeviation = 0.15f;
 // Share of the differences' energy that colour explains: up to kExplainsNothing the relation is
@@ -62,15 +62,15 @@ Standard standard_of(const ImageF1& plane, const ImageF1& weight,
             1.0f / std::max(min_deviation, static_cast<float>(deviation))};
 }
 
-using Terms = std::array<ImageF1, kTerms>;
+using TermPlanes = std::array<ImageF1, kTerms>;
 
 // u, v, u², uv, v² of the standardised chromaticity.
-Terms terms_of(const SurfaceSample& s, const SkyShade& shade) {
+TermPlanes terms_of(const SurfaceSample& s, const SkyShade& shade) {
     ImageF1 red_green = s.red_green, blue_green = s.blue_green;
     shade.take_out(red_green, blue_green);
     const Standard rg = standard_of(red_green, s.weight);
     const Standard bg = standard_of(blue_green, s.weight);
-    Terms terms;
+    TermPlanes terms;
     terms.fill(ImageF1(s.box.size()));
     parallel_rows(s.box.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -94,7 +94,7 @@ Terms terms_of(const SurfaceSample& s, const SkyShade& shade) {
 
 using Normal = LinearSystem<kTerms>;
 
-Normal normal_equations(const Terms& terms, const ImageF1& target, const ImageF1& weight) {
+Normal normal_equations(const TermPlanes& terms, const ImageF1& target, const ImageF1& weight) {
     std::vector<Normal> rows(static_cast<std::size_t>(target.height()), Normal{});
     parallel_rows(target.height(), 8, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
@@ -129,12 +129,12 @@ Normal normal_equations(const Terms& terms, const ImageF1& target, const ImageF1
     for (std::size_t i = 0; i < kTerms; ++i) {
         for (std::size_t j = 0; j < i; ++j)
             all[i][j] = all[j][i];
-        all[i][i] += kRidge * std::max(total, 1.0);
+        all[i][i] += kTermRidge * std::max(total, 1.0);
     }
     return all;
 }
 
-double energy(const ImageF1& plane, const ImageF1& weight) {
+double weighted_energy(const ImageF1& plane, const ImageF1& weight) {
     double sum = 0;
     for (std::size_t i = 0; i < plane.size_bytes() / sizeof(float); ++i) {
         const double v = plane.data()[i];
@@ -144,14 +144,14 @@ double energy(const ImageF1& plane, const ImageF1& weight) {
 }
 
 // The coefficients, scaled down where they explain little.
-std::array<double, kTerms> shrunk_coefficients(const Terms& differences, const ImageF1& target,
+std::array<double, kTerms> shrunk_coefficients(const TermPlanes& differences, const ImageF1& target,
                                                const ImageF1& weight) {
     const Normal normal = normal_equations(differences, target, weight);
     std::array<double, kTerms> coefficients = solve(normal);
     double explained = 0;
     for (std::size_t k = 0; k < kTerms; ++k)
         explained += coefficients[k] * normal[k][kTerms];
-    const double share = explained / std::max(1e-12, energy(target, weight));
+    const double share = explained / std::max(1e-12, weighted_energy(target, weight));
     const double confidence = smooth_step(share, kExplainsNothing, kExplains);
     for (double& c : coefficients)
         c *= confidence;
@@ -180,8 +180,8 @@ ColourCues colour_cues(const SurfaceSample& sample, int window_px, const Dayligh
     box_blur(weight_mean, window_px);
     const ImageF1 target = high_pass(sample.luma, sample.weight, weight_mean, window_px);
     const SkyShade shade(sample, weight_mean, target, window_px, daylight);
-    const Terms terms = terms_of(sample, shade);
-    Terms differences;
+    const TermPlanes terms = terms_of(sample, shade);
+    TermPlanes differences;
     for (std::size_t k = 0; k < kTerms; ++k)
         differences[k] = high_pass(terms[k], sample.weight, weight_mean, window_px);
     const auto coefficients = shrunk_coefficients(differences, target, shade.weight_of_paint());

@@ -21,10 +21,9 @@ namespace {
 constexpr float kFaintestSky = 0.03f, kSky = 0.08f, kBluestSky = 0.35f, kBluerThanSky = 0.5f;
 constexpr float kFaintShade = 0.08f, kShade = 0.2f;  // ln luma: not reliable below
 constexpr int kDetail = 4;                           // of the window: paint may be finer
-constexpr float kLeastWeight = 1e-3f;
 // Deviations that are too little to tell paints apart: of a chromaticity across daylight (ln), and
 // of what along it does not go with the light.
-constexpr double kOnePaint = 0.08, kNoRest = 0.05;
+constexpr double kOnePaintDeviation = 0.08, kNoRest = 0.05;
 constexpr double kOfSquares = 0.25;
 // The share of the colours' energy along daylight that the light explains, and how far its slope
 // is from the shot's, in proportion.
@@ -242,7 +241,8 @@ struct Found {
 // paint has two lightnesses, the rest is in proportion to them.
 Found find_light(const SurfaceSample& s, const ImageF1& along, const ImageF1& across,
                  const Window& window, float slope) {
-    constexpr double kPaint = kOnePaint * kOnePaint, kRest = kNoRest * kNoRest;
+    constexpr double kHueVariance = kOnePaintDeviation * kOnePaintDeviation,
+                     kRestVariance = kNoRest * kNoRest;
     const EdgeFilter edges(s);
     const auto term = [&](ImageF1 value, double ridge) {
         ImageF1 detail = window.fine(value);
@@ -253,11 +253,11 @@ Found find_light(const SurfaceSample& s, const ImageF1& along, const ImageF1& ac
     ImageF1 left = sunlit;
     for (std::size_t i = 0; i < count_of(left); ++i)
         left.data()[i] -= slope * light.data()[i];
-    const Term hue = term(edges.filtered(across), kPaint);
-    const Term hue2 = term(weighted(hue.value, hue.value), kOfSquares * kPaint);
-    const Term rest = term(std::move(left), kRest);
-    const Term rest2 = term(weighted(rest.value, rest.value), kOfSquares * kRest);
-    const Term both = term(weighted(rest.value, hue.value), kOfSquares * kPaint);
+    const Term hue = term(edges.filtered(across), kHueVariance);
+    const Term hue2 = term(weighted(hue.value, hue.value), kOfSquares * kHueVariance);
+    const Term rest = term(std::move(left), kRestVariance);
+    const Term rest2 = term(weighted(rest.value, rest.value), kOfSquares * kRestVariance);
+    const Term both = term(weighted(rest.value, hue.value), kOfSquares * kHueVariance);
     regress_out<5>(light, {&rest, &hue, &rest2, &both, &hue2}, window, s.weight);
     regress_out<2>(sunlit, {&hue, &hue2}, window, s.weight);
     const DaylightEvidence evidence = evidence_of(light, sunlit, window, s.weight);
@@ -267,17 +267,17 @@ Found find_light(const SurfaceSample& s, const ImageF1& along, const ImageF1& ac
 }  // namespace
 
 SkyShade::SkyShade(const SurfaceSample& s, const ImageF1& weight_mean, const ImageF1& luma_detail,
-                   int window_px, const Daylight& daylight) {
+                   int window_px, const Daylight& shot_daylight) {
     const Window window(s, weight_mean, window_px);
     const ImageF1 along = turned(s, kDaylightRed, kDaylightBlue);
     const ImageF1 across = turned(s, -kDaylightBlue, kDaylightRed);
     weight_of_paint_ =
         paint_weight(s.weight, window.wide(luma_detail), window.wide(window.fine(along)),
                      window.wide(window.fine(across)));
-    if (daylight.confidence == 0) return;
-    Found found = find_light(s, along, across, window, daylight.slope);
-    evidence_ = pooled(found.evidence, daylight.before);
-    confidence_ = daylight.confidence * trust_in(evidence_, daylight.slope);
+    if (shot_daylight.confidence == 0) return;
+    Found found = find_light(s, along, across, window, shot_daylight.slope);
+    evidence_ = pooled(found.evidence, shot_daylight.before);
+    confidence_ = shot_daylight.confidence * trust_in(evidence_, shot_daylight.slope);
     if (confidence_ == 0) return;
     light_ = std::move(found.light);
     for (std::size_t i = 0; i < count_of(light_); ++i)

@@ -14,7 +14,7 @@ class SkyShade {
     /// sample's weight under the box blur of that radius; `luma_detail`: high_pass() of its luma
     /// (masked_filters.h). `sample.box` must not be empty.
     SkyShade(const SurfaceSample& sample, const ImageF1& weight_mean, const ImageF1& luma_detail,
-             int window_px, const Daylight& daylight);
+             int window_px, const Daylight& shot_daylight);
 
     /// The sample's weight, reduced where a difference may be such shade and not paint.
     [[nodiscard]] const ImageF1& weight_of_paint() const { return weight_of_paint_; }

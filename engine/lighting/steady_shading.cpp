@@ -88,7 +88,7 @@ Noise noise_of(const Difference& d) {
 }
 
 // 1 where `x` is well below `limit`, falling to 0 beyond it.
-float agreement(float x, float limit) {
+float agreement_within(float x, float limit) {
     const float r = x / limit;
     const float k = std::max(0.0f, 1.0f - r * r / 4.0f);
     return k * k;
@@ -99,7 +99,8 @@ ImageF1 wide_change(const Difference& d, const Noise& noise, int window) {
     ImageF1 weight(d.value.size()), sum(d.value.size());
     for (std::size_t i = 0; i < weight.size_bytes() / sizeof(float); ++i) {
         const float away = d.value.data()[i] - noise.centre;
-        weight.data()[i] = d.known.data()[i] * agreement(away, 2.0f * kAgreement * noise.deviation);
+        weight.data()[i] =
+            d.known.data()[i] * agreement_within(away, 2.0f * kAgreement * noise.deviation);
         sum.data()[i] = weight.data()[i] * away;
     }
     box_blur(weight, window);
@@ -125,7 +126,8 @@ Shading steady_shading(const Shading& current, const Shading& previous, ViewF2 p
             for (int x = 0; x < current.value.width(); ++x) {
                 if (d.known.row(y)[x] == 0) continue;
                 const float flicker = d.value.row(y)[x] - change.row(y)[x];
-                const float share = kShare * agreement(flicker, kAgreement * noise.deviation);
+                const float share =
+                    kShare * agreement_within(flicker, kAgreement * noise.deviation);
                 if (share > 0) steady.value.row(y)[x] *= fast_exp(-share * flicker);
             }
         }

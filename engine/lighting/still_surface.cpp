@@ -8,24 +8,25 @@
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
+#include "engine/lighting/coverage.h"
 #include "engine/lighting/fast_math.h"
 #include "engine/lighting/masked_filters.h"
+#include "engine/lighting/quantile.h"
 
 namespace weft {
 namespace {
 
 using Part = StillSurfaceGatherer::Part;
 
-constexpr int kSure = 250;           // below this a pixel is a mixture
-constexpr float kSplatKnown = 0.1f;  // of a pixel: less was hit by chance
-constexpr int kFewestFrames = 4;
+constexpr float kSplatHit = 0.1f;  // of a pixel: less was hit by chance
+constexpr int kFewestStillFrames = 4;
 constexpr std::size_t kFewestPlaces = 64;
-constexpr float kDarkest = 0.25f;  // of the frames
+constexpr float kDarkestFrames = 0.25f;  // of the frames
 constexpr float kLowQuarter = 0.25f;
 constexpr float kBlack = 1e-4f;  // linear light
-constexpr int kLevelRounds = 2;
-constexpr float kFaded = 0.05f;  // of the usual light: what a fade leaves of gloss is noise
-constexpr int kWindow = 3;       // radius in which paint is compared with what moves, pixels
+constexpr int kStillLevelRounds = 2;
+constexpr float kFadedShare = 0.05f;  // of the usual light: what a fade leaves of gloss is noise
+constexpr int kPaintWindow = 3;       // radius in which paint is compared with what moves, pixels
 
 // What tells gloss from moving shadows, measured on rendered surfaces with gloss and without.
 // Highlights are bright and rare, so the median over time lies near the dark end.
@@ -35,7 +36,7 @@ constexpr float kStill = 0.1f, kMoves = 0.25f;
 // Light is multiplied by the paint's pattern, gloss is not: the slope of what moves on the pattern,
 // 1 for light; and the contrast of a pattern that tells.
 constexpr float kAdded = 0.3f, kMultiplied = 0.6f;
-constexpr float kPlain = 0.03f, kPatterned = 0.08f;
+constexpr float kPlainPaint = 0.03f, kPatternedPaint = 0.08f;
 
 // A frame's surface at the reduced size.
 struct Reduced {
@@ -63,7 +64,7 @@ Reduced reduced(Vec2i origin, ViewF3 plate, ViewU8x1 visible, int d) {
                 for (int v = top; v < top + d; ++v) {
                     for (int u = left; u < left + d; ++u) {
                         const float* p = plate.pixel(u, v);
-                        whole = whole && visible.row(v)[u] >= kSure &&
+                        whole = whole && visible.row(v)[u] >= kUnmixedFrom &&
                                 std::isfinite(p[0] + p[1] + p[2]);
                         for (std::size_t c = 0; c < 3; ++c)
                             sum[c] += std::max(0.0f, p[c]);
@@ -113,7 +114,7 @@ Recti box_of(const ImageF2& at, const ImageF1& known, Size frame) {
 }
 
 // Puts a frame on the reference frame, bilinearly.
-Part splat(const Reduced& frame, const ImageF2& at, const Recti& box) {
+Part splat_frame(const Reduced& frame, const ImageF2& at, const Recti& box) {
     Part part;
     part.box = box;
     part.colour = ImageF3(box.size());
@@ -141,19 +142,12 @@ Part splat(const Reduced& frame, const ImageF2& at, const Recti& box) {
     for (int y = 0; y < box.height(); ++y) {
         for (int x = 0; x < box.width(); ++x) {
             float& w = part.weight.row(y)[x];
-            for (int c = 0; w > kSplatKnown && c < 3; ++c)
+            for (int c = 0; w > kSplatHit && c < 3; ++c)
                 part.colour.pixel(x, y)[c] /= w;
-            w = w > kSplatKnown ? 1.0f : 0.0f;
+            w = w > kSplatHit ? 1.0f : 0.0f;
         }
     }
     return part;
-}
-
-float quantile(std::vector<float>& values, float share) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
 }
 
 // A part's colour at a place of the canvas, or null.
@@ -206,9 +200,10 @@ Changes darkest(const std::vector<Part>& parts, StillSurface& out, ImageF1& midd
             for (int x = 0; x < out.box.width(); ++x) {
                 shown_at(parts, x + out.box.x0, y + out.box.y0, shown);
                 const std::size_t n = shown.size();
-                if (static_cast<int>(n) < kFewestFrames) continue;
+                if (static_cast<int>(n) < kFewestStillFrames) continue;
                 const auto few = std::max<std::size_t>(
-                    1, static_cast<std::size_t>(std::lround(kDarkest * static_cast<float>(n))));
+                    1,
+                    static_cast<std::size_t>(std::lround(kDarkestFrames * static_cast<float>(n))));
                 float* colour = out.colour.pixel(x, y);
                 for (std::size_t k = 0; k < few; ++k) {
                     const Part& part = parts[static_cast<std::size_t>(shown[k].second)];
@@ -253,7 +248,7 @@ void add_pattern(const Part& part, const StillSurface& still, Pattern& sums) {
     }
     ImageF1 count = known, mean_paint = paint, mean_beyond = beyond;
     for (ImageF1* plane : {&count, &mean_paint, &mean_beyond})
-        box_blur(*plane, kWindow);
+        box_blur(*plane, kPaintWindow);
     for (std::size_t i = 0; i < known.size_bytes() / sizeof(float); ++i) {
         const float n = count.data()[i];
         if (known.data()[i] == 0 || !(mean_paint.data()[i] > kBlack * n)) continue;
@@ -270,8 +265,8 @@ float added_share(const std::vector<Part>& parts, const StillSurface& still, flo
     for (const Part& part : parts)
         add_pattern(part, still, sums);
     if (!(sums.xx > 0 && sums.moved > 0)) return 1 - daylight;
-    const float patterned =
-        smooth_step(static_cast<float>(std::sqrt(sums.xx / sums.moved)), kPlain, kPatterned);
+    const float patterned = smooth_step(static_cast<float>(std::sqrt(sums.xx / sums.moved)),
+                                        kPlainPaint, kPatternedPaint);
     const float multiplied =
         smooth_step(static_cast<float>(sums.xy / sums.xx), kAdded, kMultiplied);
     return patterned * (1 - multiplied) + (1 - patterned) * (1 - daylight);
@@ -287,7 +282,7 @@ float confidence_in(const Changes& changes, float added) {
 }
 
 // The still surface as the frame sees it; false where it is not known.
-bool lookup(const StillSurface& still, const float* at, float& luma) {
+bool look_up_still(const StillSurface& still, const float* at, float& luma) {
     const float u = at[0] - static_cast<float>(still.box.x0);
     const float v = at[1] - static_cast<float>(still.box.y0);
     if (!(u >= 0 && v >= 0 && u < static_cast<float>(still.box.width() - 1) &&
@@ -338,25 +333,25 @@ void StillSurfaceGatherer::add(ViewF3 linear, ViewU8x1 visible, const LatticeFie
     const Reduced frame = reduced({0, 0}, linear, visible, pixel_px_);
     const ImageF2 at = places(frame, pixel_px_, static_cast<float>(pixel_px_), ref_from_cur);
     const Recti box = box_of(at, frame.known, frame.box.size());
-    if (!box.empty()) parts_.push_back(splat(frame, at, box));
+    if (!box.empty()) parts_.push_back(splat_frame(frame, at, box));
 }
 
 StillSurface StillSurfaceGatherer::finish(float daylight) {
     StillSurface out;
     out.pixel_px = static_cast<float>(pixel_px_);
-    if (static_cast<int>(parts_.size()) < kFewestFrames) return out;
+    if (static_cast<int>(parts_.size()) < kFewestStillFrames) return out;
     for (const Part& part : parts_)
         out.box = out.box.united(part.box);
     Changes changes;
-    for (int round = 0; round < kLevelRounds; ++round) {
+    for (int round = 0; round < kStillLevelRounds; ++round) {
         out.colour = ImageF3(out.box.size());
         out.known = ImageF1(out.box.size());
         ImageF1 middle(out.box.size());
         changes = darkest(parts_, out, middle);
-        if (round + 1 == kLevelRounds) break;
+        if (round + 1 == kStillLevelRounds) break;
         for (Part& part : parts_)
             part.level = fast_exp(low_level(part, out.box, middle, out.known));
-        std::erase_if(parts_, [](const Part& part) { return part.level < kFaded; });
+        std::erase_if(parts_, [](const Part& part) { return part.level < kFadedShare; });
     }
     if (!(changes.places >= static_cast<double>(kFewestPlaces))) return {};
     ImageF1 luma(out.box.size());
@@ -382,7 +377,7 @@ ImageF1 moving_gloss(Vec2i origin, ViewF3 plate, ViewU8x1 matte, const StillSurf
         for (int x = 0; x < gloss.width(); ++x) {
             float& known = frame.known.row(y)[x];
             if (known == 0) continue;
-            if (!lookup(still, at.pixel(x, y), paint.row(y)[x])) {
+            if (!look_up_still(still, at.pixel(x, y), paint.row(y)[x])) {
                 known = 0;
                 continue;
             }

@@ -8,14 +8,13 @@
 
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
+#include "engine/lighting/coverage.h"
 #include "engine/lighting/fast_math.h"
 #include "engine/lighting/median.h"
 
 namespace weft {
 namespace {
 
-constexpr int kCovered = 128;        // visible from this coverage on
-constexpr int kSure = 250;           // below this a pixel is a mixture
 constexpr float kRimWeight = 0.02f;  // enough to fill regions that are all rim
 constexpr int kMargin = 2;           // small pixels around the matte's box
 constexpr float kFloorOfMedian = 0.02f, kLeastFloorOfMedian = 0.002f;
@@ -27,7 +26,7 @@ Recti covered_box(ViewU8x1 visible) {
     parallel_rows(visible.height(), 32, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             const std::uint8_t* m = visible.row(y);
-            const auto covered = [](std::uint8_t v) { return v >= kCovered; };
+            const auto covered = [](std::uint8_t v) { return v >= kCoveredFrom; };
             const std::uint8_t* end = m + visible.width();
             const std::uint8_t* first = std::find_if(m, end, covered);
             if (first == end) continue;
@@ -57,8 +56,8 @@ void weights_of_row(ViewU8x1 visible, int y, int x0, int x1, std::vector<std::ui
     for (int x = x0; x < x1; ++x) {
         const int around = std::min(std::min(lowest[std::max(a, x - 1)], lowest[x]),
                                     lowest[std::min(b - 1, x + 1)]);
-        const bool sure = here[x] >= kSure && around >= kCovered;
-        weights[x - x0] = here[x] < kCovered ? 0.0f : sure ? 1.0f : kRimWeight;
+        const bool sure = here[x] >= kUnmixedFrom && around >= kCoveredFrom;
+        weights[x - x0] = here[x] < kCoveredFrom ? 0.0f : sure ? 1.0f : kRimWeight;
     }
 }
 

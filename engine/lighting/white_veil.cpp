@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/luma.h"
+#include "engine/lighting/quantile.h"
 
 namespace weft {
 namespace {
@@ -13,13 +14,6 @@ namespace {
 constexpr float kLow = 0.02f, kHigh = 0.98f;
 constexpr int kSampled = 320;                 // columns that are looked at, at most
 constexpr float kNone = 0.05f, kFull = 0.1f;  // below, none; above, as much as is found
-
-float quantile(std::vector<float>& values, float share) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 // How far `low` has risen on its way to white.
 float risen(float low, float before) {

@@ -12,15 +12,15 @@
 namespace weft {
 namespace {
 
-constexpr int kStep = 4;                        // motion is sampled at every fourth pixel
+constexpr int kSampleStep = 4;                  // motion is sampled at every fourth pixel
 constexpr std::array<int, 2> kRadii = {3, 12};  // of local corrections, in steps
 constexpr std::array<float, 2> kSay = {1.0f, 0.05f};
 constexpr float kPlaneWeight = 0.01f;  // weight of "no correction" against them
 
 std::vector<MotionSample> samples_of(ViewF1 phi, const FlowField& flow, float clearance_px) {
     std::vector<MotionSample> samples;
-    for (int y = kStep / 2; y < phi.height(); y += kStep) {
-        for (int x = kStep / 2; x < phi.width(); x += kStep) {
+    for (int y = kSampleStep / 2; y < phi.height(); y += kSampleStep) {
+        for (int x = kSampleStep / 2; x < phi.width(); x += kSampleStep) {
             if (flow.valid.row(y)[x] == 0) continue;
             const float* d = flow.d.pixel(x, y);
             if (sample_bilinear(phi, static_cast<float>(x) + d[0], static_cast<float>(y) + d[1]) >
@@ -33,14 +33,15 @@ std::vector<MotionSample> samples_of(ViewF1 phi, const FlowField& flow, float cl
     return samples;
 }
 
-// What the plane misses, averaged near by, on a grid of every kStep-th pixel.
+// What the plane misses, averaged near by, on a grid of every kSampleStep-th pixel.
 ImageF2 local_corrections(const PlaneMotion& plane, const std::vector<MotionSample>& samples,
                           Size size) {
-    const int w = (size.width + kStep - 1) / kStep, h = (size.height + kStep - 1) / kStep;
+    const int w = (size.width + kSampleStep - 1) / kSampleStep,
+              h = (size.height + kSampleStep - 1) / kSampleStep;
     cv::Mat misses(h, w, CV_32FC3, cv::Scalar::all(0));
     for (const MotionSample& s : samples) {
         const Vec2 miss = s.d - plane.at(s.x, s.y);
-        misses.at<cv::Vec3f>(s.y / kStep, s.x / kStep) = cv::Vec3f(1, miss.x, miss.y);
+        misses.at<cv::Vec3f>(s.y / kSampleStep, s.x / kSampleStep) = cv::Vec3f(1, miss.x, miss.y);
     }
     ImageF2 corrections(w, h);
     std::array<cv::Mat, kRadii.size()> means;
@@ -72,9 +73,10 @@ ImageF2 background_motion(ViewF1 prev_phi, const FlowField& prev_from_cur, float
     parallel_rows(size.height, 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < size.width; ++x) {
-                const Vec2 d = plane.at(x, y) +
-                               sample_bilinear(corrections, static_cast<float>(x) / kStep - 0.5f,
-                                               static_cast<float>(y) / kStep - 0.5f);
+                const Vec2 d =
+                    plane.at(x, y) + sample_bilinear(corrections,
+                                                     static_cast<float>(x) / kSampleStep - 0.5f,
+                                                     static_cast<float>(y) / kSampleStep - 0.5f);
                 motion.pixel(x, y)[0] = d.x;
                 motion.pixel(x, y)[1] = d.y;
             }

@@ -11,11 +11,11 @@
 namespace weft {
 namespace {
 
-constexpr float kClearancePx = 3;     // nearer to the shape, its colour is mixed in
-constexpr float kSurePx = 12;         // farther outside, a difference is noise and not surface
-constexpr float kLeastNoise = 4;      // mean difference of an unchanged pixel, 8-bit levels
-constexpr float kForeignRange = 160;  // levels over which the differences of another object spread
-constexpr float kMostOdds = 3;
+constexpr float kClearancePx = 3;      // nearer to the shape, its colour is mixed in
+constexpr float kSurePx = 12;          // farther outside, a difference is noise and not surface
+constexpr float kLeastNoise = 4;       // mean difference of an unchanged pixel, 8-bit levels
+constexpr float kForeignSpread = 160;  // levels over which the differences of another object spread
+constexpr float kMostPlateOdds = 3;
 constexpr float kMostGain = 2;        // of a shadow that comes or goes
 constexpr float kLightShare = 0.35f;  // weight of a difference in brightness alone
 
@@ -38,7 +38,7 @@ float difference_but_light(const std::uint8_t* a, const std::uint8_t* b) {
 }
 
 // Difference, summed over channels, of a pixel and the most similar one of the plate around it.
-float least_difference(const std::uint8_t* c, ViewU8x3 plate, int x, int y) {
+float least_difference_but_light(const std::uint8_t* c, ViewU8x3 plate, int x, int y) {
     float least = 3 * 255;
     for (int v = std::max(0, y - 1); v <= std::min(plate.height() - 1, y + 1); ++v) {
         for (int u = std::max(0, x - 1); u <= std::min(plate.width() - 1, x + 1); ++u)
@@ -110,7 +110,7 @@ ImageF1 BackgroundPlate::odds(ViewU8x3 frame, ViewF1 expected_phi, ViewF1 surfac
             for (int x = 0; x < w; ++x) {
                 const int fx = area.x0 + x, fy = area.y0 + y;
                 if (known_.row(fy)[fx] == 0) continue;
-                const float d = least_difference(frame.pixel(x, y), picture_, fx, fy) / 3;
+                const float d = least_difference_but_light(frame.pixel(x, y), picture_, fx, fy) / 3;
                 differences.at<float>(y, x) = d;
                 if (expected_phi.row(y)[x] < -kSurePx)
                     sure.at<cv::Vec2f>(y, x) = cv::Vec2f(1, std::min(d, 30.0f));
@@ -136,10 +136,10 @@ ImageF1 BackgroundPlate::odds(ViewU8x3 frame, ViewF1 expected_phi, ViewF1 surfac
                 // anything else.
                 const float shown =
                     surface_difference.empty() ? -1.0f : surface_difference.row(y)[x];
-                const float foreign = std::log(2 * scale / kForeignRange);
+                const float foreign = std::log(2 * scale / kForeignSpread);
                 const float value = (shown < 0 ? foreign : std::max(foreign, -shown / scale)) +
                                     patch.at<float>(y, x) / scale;
-                odds.row(y)[x] = std::clamp(value, -kMostOdds, kMostOdds);
+                odds.row(y)[x] = std::clamp(value, -kMostPlateOdds, kMostPlateOdds);
             }
         }
     });

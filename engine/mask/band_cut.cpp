@@ -20,7 +20,7 @@ struct Step {
     int dx, dy;
     float inverse_length;
 };
-constexpr std::array<Step, 4> kSteps{
+constexpr std::array<Step, 4> kNeighbourSteps{
     {{1, 0, 1.0f}, {0, 1, 1.0f}, {1, 1, 0.70710678f}, {-1, 1, 0.70710678f}}};
 
 int color_distance(ViewU8x3 frame, int x0, int y0, int x1, int y1) {
@@ -69,7 +69,7 @@ struct Terminal {
 void link_pixel(cv::detail::GCGraph<int>& graph, std::vector<Terminal>& terminals, const Band& band,
                 ViewU8x3 frame, Vec2i at, float beta, float smoothness) {
     const int p = band.node.row(at.y)[at.x];
-    for (const Step& s : kSteps) {
+    for (const Step& s : kNeighbourSteps) {
         const Vec2i to = at + Vec2i(s.dx, s.dy);
         if (to.x < 0 || to.x >= frame.width() || to.y >= frame.height()) continue;
         const int q = band.node.row(to.y)[to.x];

@@ -18,7 +18,7 @@ namespace {
 
 // Pixels of 854×480: motion is sampled at every third of them, and not near the boundary, where it
 // is mixed.
-constexpr float kStride_px = 3, kInside_px = 3, kOutside_px = 8;
+constexpr float kStride_px = 3, kSureInside_px = 3, kOutside_px = 8;
 constexpr float kHalo_px = 25;          // as far as motion spreads over an edge
 constexpr float kInvalidWeight = 0.3f;  // of motion that does not lead there and back
 constexpr float kFinest_px = 0.25f;     // departures below it are noise
@@ -27,8 +27,8 @@ constexpr float kUnseenShare = 0.005f;
 constexpr float kTooFew = 0.1f;  // of the most samples inside: the rest of it is at an edge
 // The total variation between inside and outside from which on motion tells them apart.
 constexpr float kAlike = 0.45f, kApart = 0.75f;
-constexpr float kMostNow = 3;    // log odds from one frame
-constexpr float kMemory = 0.9f;  // of their sum, from frame to frame
+constexpr float kMostNow = 3;             // log odds from one frame
+constexpr float kDepartureMemory = 0.9f;  // of their sum, from frame to frame
 constexpr float kForWeight = 0.25f;
 // Ages in frames. What has been inside for kSettled counts as the surface's motion.
 constexpr float kOldest = 24, kSettled = 10, kYoung = 6;
@@ -126,7 +126,7 @@ void Departure::count(const Step& step) {
     for (int y = stride / 2; y < step.prev_phi.height(); y += stride) {
         for (int x = stride / 2; x < step.prev_phi.width(); x += stride) {
             const float phi = before(step.prev_phi, step.flow, x, y) / step.unit_px;
-            if (phi < kInside_px && phi > -kOutside_px) continue;
+            if (phi < kSureInside_px && phi > -kOutside_px) continue;
             // A leak must not teach how the surface moves.
             if (phi > 0 && before(age_, step.flow, x, y) < kSettled) continue;
             const float bin = std::min(bin_of(step.departure(x, y)), static_cast<float>(kBins - 1));
@@ -202,7 +202,7 @@ const ImageF1& Departure::advance(const DepartureInput& in) {
                 const float bin = std::min(bin_of(departure), static_cast<float>(kBins - 1));
                 departs_.at(x, y) = any[static_cast<std::size_t>(bin)];
                 const float now = odds_now(in, {x, y}, departure, shares);
-                float sum = known ? kMemory * before(odds_, in.flow, x, y) : 0.0f;
+                float sum = known ? kDepartureMemory * before(odds_, in.flow, x, y) : 0.0f;
                 // What moves with the background now was taken for surface by an edge's motion.
                 if (now < 0) sum = std::min(sum, 0.0f);
                 odds.at(x, y) = std::clamp(sum + now, -kMostAgainst, kMostFor);

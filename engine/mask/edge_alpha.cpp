@@ -6,11 +6,7 @@
 #include "engine/core/parallel.h"
 
 namespace weft {
-namespace {
-
-constexpr int kReachPx = 4;  // how far sure colours are searched
-
-}  // namespace
+namespace {}  // namespace
 
 MixEstimate estimate_mix(Vec3 c, Vec3 inside, float inside_variance, Vec3 outside,
                          float outside_variance) {
@@ -44,9 +40,10 @@ Matte edge_alpha(ViewU8x3 frame, ViewF1 phi, float width_px) {
                     continue;
                 }
                 ColorSum in, out;
-                for (int v = std::max(0, y - kReachPx); v <= std::min(h - 1, y + kReachPx); ++v) {
-                    for (int u = std::max(0, x - kReachPx); u <= std::min(w - 1, x + kReachPx);
-                         ++u) {
+                for (int v = std::max(0, y - kSureColorReachPx);
+                     v <= std::min(h - 1, y + kSureColorReachPx); ++v) {
+                    for (int u = std::max(0, x - kSureColorReachPx);
+                         u <= std::min(w - 1, x + kSureColorReachPx); ++u) {
                         const float e = phi.row(v)[u];
                         if (std::abs(e) < 1.5f) continue;
                         const auto r2 = static_cast<float>((u - x) * (u - x) + (v - y) * (v - y));

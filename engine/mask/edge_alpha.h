@@ -9,6 +9,8 @@
 
 namespace weft {
 
+constexpr int kSureColorReachPx = 4;  ///< How far sure colours are searched.
+
 /// Coverage of a shape with signed distance `phi` (pixels, H×W). Away from the edge it is 0 or 255.
 /// Within about `width_px` of the edge the pixel's colour is projected on the line between the sure
 /// inside and outside colours nearby. Where those are alike, or the pixel fits neither, the shape

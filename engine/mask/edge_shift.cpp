@@ -8,6 +8,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/mask/box_gaussian.h"
+#include "engine/mask/copy_of.h"
 #include "engine/mask/level_distance.h"
 #include "engine/mask/signed_distance.h"
 
@@ -144,13 +145,6 @@ class SoftShift {
     EdgeShift shift_;
     ImageF1 value_, width_, lowest_, last_;
 };
-
-ImageF1 copy_of(ViewF1 view) {
-    ImageF1 out(view.size());
-    for (int y = 0; y < view.height(); ++y)
-        std::copy_n(view.row(y), view.width(), out.row(y));
-    return out;
-}
 
 ImageF1 moved_edge(const ImageF1& alpha, const EdgeShift& shift, float sigma_px) {
     const float reach = shift.reach() + smooth_reach(sigma_px) + kMargin_px;

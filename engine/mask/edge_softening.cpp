@@ -11,14 +11,13 @@
 namespace weft {
 namespace {
 
-constexpr int kReachPx = 4;         // how far sure colours are searched
 constexpr float kOutsideClear = 1;  // mixed pixels lie on both sides of a hard edge
 
 // Distance from every pixel near the boundary to the nearest pixel centre of the other side, less
-// half a pixel, positive inside; kReachPx + 0.5 farther away.
+// half a pixel, positive inside; kSureColorReachPx + 0.5 farther away.
 ImageF1 near_distance(ViewU8x1 matte) {
     const int w = matte.width(), h = matte.height();
-    constexpr int kFar = kReachPx + 1;
+    constexpr int kFar = kSureColorReachPx + 1;
     // Per pixel: steps along the row to the nearest pixel of the other side, up to kFar.
     Image<std::uint8_t, 1> to_in(matte.size(), kFar), to_out(matte.size(), kFar);
     ImageF1 phi(matte.size());
@@ -48,7 +47,8 @@ ImageF1 near_distance(ViewU8x1 matte) {
                 const bool inside = matte.row(y)[x] >= 128;
                 const auto& other = inside ? to_out : to_in;
                 int best = kFar * kFar;
-                for (int v = std::max(0, y - kReachPx); v <= std::min(h - 1, y + kReachPx); ++v) {
+                for (int v = std::max(0, y - kSureColorReachPx);
+                     v <= std::min(h - 1, y + kSureColorReachPx); ++v) {
                     const int dx = other.row(v)[x];
                     if (dx < kFar) best = std::min(best, dx * dx + (v - y) * (v - y));
                 }
@@ -76,9 +76,10 @@ float shape_coverage(ViewU8x1 matte, int x, int y) {
 
 float softened(ViewU8x3 plate, ViewU8x1 matte, ViewF1 phi, int x, int y, float width_px) {
     ColorSum inside, outside;
-    for (int v = std::max(0, y - kReachPx); v <= std::min(plate.height() - 1, y + kReachPx); ++v) {
-        for (int u = std::max(0, x - kReachPx); u <= std::min(plate.width() - 1, x + kReachPx);
-             ++u) {
+    for (int v = std::max(0, y - kSureColorReachPx);
+         v <= std::min(plate.height() - 1, y + kSureColorReachPx); ++v) {
+        for (int u = std::max(0, x - kSureColorReachPx);
+             u <= std::min(plate.width() - 1, x + kSureColorReachPx); ++u) {
             const float d = phi.row(v)[u];
             const auto near = 1 / static_cast<float>(1 + (u - x) * (u - x) + (v - y) * (v - y));
             if (d > width_px) inside.add(plate.pixel(u, v), near);

@@ -18,7 +18,7 @@ constexpr int kLeastArea = 24;  // px; less is the antialiasing of lines
 
 using Color = std::array<int, 3>;
 
-int difference(const Color& a, const Color& b) {
+int largest_difference(const Color& a, const Color& b) {
     return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
@@ -66,7 +66,7 @@ bool is_even(ViewU8x3 frame, const Image<std::int32_t, 1>& of, const std::vector
     for (const Vec2i& p : members) {
         if (p.x + 1 == frame.width() || of.at(p.x + 1, p.y) != of.at(p.x, p.y)) continue;
         ++pairs;
-        equal += difference(color_at(frame, p.x, p.y), color_at(frame, p.x + 1, p.y)) <= 1;
+        equal += largest_difference(color_at(frame, p.x, p.y), color_at(frame, p.x + 1, p.y)) <= 1;
     }
     if (static_cast<double>(equal) < kLeastEqual * static_cast<double>(pairs)) return false;
     const Spread spread = spread_of(frame, members);
@@ -80,7 +80,7 @@ bool is_calm(ViewU8x3 frame, int x, int y) {
     const Color own = color_at(frame, x, y);
     for (int v = std::max(0, y - 1); v <= std::min(frame.height() - 1, y + 1); ++v) {
         for (int u = std::max(0, x - 1); u <= std::min(frame.width() - 1, x + 1); ++u) {
-            if (difference(own, color_at(frame, u, v)) > kRinging) return false;
+            if (largest_difference(own, color_at(frame, u, v)) > kRinging) return false;
         }
     }
     return true;
@@ -117,7 +117,7 @@ void mark_thick(Fills& fills) {
     }
 }
 
-constexpr std::int32_t kNew = -2, kNone = -1;
+constexpr std::int32_t kNew = -2, kNoFill = -1;
 
 // Adds the fill around a pixel that is of none yet.
 void grow_fill(ViewU8x3 frame, ViewF1 phi, Vec2i from, Fills& out, std::vector<Vec2i>& members) {
@@ -132,7 +132,7 @@ void grow_fill(ViewU8x3 frame, ViewF1 phi, Vec2i from, Fills& out, std::vector<V
             const Vec2i q = p + step;
             if (q.x < 0 || q.y < 0 || q.x >= frame.width() || q.y >= frame.height()) continue;
             if (out.of.at(q.x, q.y) != kNew ||
-                difference(color_at(frame, q.x, q.y), fill.color) > kSameFill)
+                largest_difference(color_at(frame, q.x, q.y), fill.color) > kSameFill)
                 continue;
             out.of.at(q.x, q.y) = label;
             members.push_back(q);
@@ -145,7 +145,7 @@ void grow_fill(ViewU8x3 frame, ViewF1 phi, Vec2i from, Fills& out, std::vector<V
         return;
     }
     for (const Vec2i& p : members)
-        out.of.at(p.x, p.y) = kNone;
+        out.of.at(p.x, p.y) = kNoFill;
 }
 
 Fills fills_of(ViewU8x3 frame, ViewF1 phi) {
@@ -188,7 +188,7 @@ bool is_own(const Fills& fills, ViewF1 phi, const std::vector<Decision>& decided
 }
 
 // Around what is the surface's: with as much as says whether what lies there is a line.
-Recti box_of(const Fills& fills, ViewF1 phi, const std::vector<Decision>& decided) {
+Recti box_around_surface(const Fills& fills, ViewF1 phi, const std::vector<Decision>& decided) {
     Recti box{phi.width(), phi.height(), 0, 0};
     for (int y = 0; y < phi.height(); ++y) {
         for (int x = 0; x < phi.width(); ++x) {
@@ -223,7 +223,7 @@ double equal_share(ViewU8x3 frame, ViewF1 phi) {
         for (int x = 0; x + 1 < frame.width(); ++x) {
             if (phi.row(y)[x] <= 0 || phi.row(y)[x + 1] <= 0) continue;
             ++pairs;
-            equal += difference(color_at(frame, x, y), color_at(frame, x + 1, y)) <= 1;
+            equal += largest_difference(color_at(frame, x, y), color_at(frame, x + 1, y)) <= 1;
         }
     }
     return pairs == 0 ? 0 : static_cast<double>(equal) / static_cast<double>(pairs);
@@ -238,8 +238,9 @@ double runs_on(ViewU8x3 frame, ViewF1 phi, const Fills& fills) {
         const std::int32_t a = fills.of.at(p.x, p.y), b = fills.of.at(q.x, q.y);
         if (a == b || (a < 0 && b < 0) || phi.row(p.y)[p.x] <= 0 || phi.row(q.y)[q.x] <= 0) return;
         ++steps;
-        soft += a >= 0 && b >= 0 &&
-                difference(color_at(frame, p.x, p.y), color_at(frame, q.x, q.y)) <= kSameFill;
+        soft +=
+            a >= 0 && b >= 0 &&
+            largest_difference(color_at(frame, p.x, p.y), color_at(frame, q.x, q.y)) <= kSameFill;
     };
     for (int y = 0; y + 1 < frame.height(); ++y) {
         for (int x = 0; x + 1 < frame.width(); ++x) {
@@ -272,7 +273,7 @@ FlatFills::FlatFills(ViewU8x3 frame, ViewF1 phi) {
         flat += fill.inside;
         const double share = static_cast<double>(fill.inside) / static_cast<double>(fill.area);
         auto paint = std::find_if(paints_.begin(), paints_.end(), [&](const Paint& p) {
-            return difference(p.color, fill.color) <= kSamePaint;
+            return largest_difference(p.color, fill.color) <= kSamePaint;
         });
         if (paint == paints_.end()) paint = paints_.insert(paint, Paint{fill.color});
         paint->inside += fill.inside;
@@ -284,17 +285,18 @@ FlatFills::FlatFills(ViewU8x3 frame, ViewF1 phi) {
         return;
     }
     const std::vector<Decision> as_painted(fills.all.size(), Decision::kAsFound);
-    const Recti box = box_of(fills, phi, as_painted);
+    const Recti box = box_around_surface(fills, phi, as_painted);
     lines_ = LineHabit(sides_of(fills, phi, as_painted, box), phi.crop(box));
 }
 
 const FlatFills::Paint* FlatFills::paint_of(const std::array<int, 3>& color) const {
     const auto nearest =
         std::min_element(paints_.begin(), paints_.end(), [&](const Paint& a, const Paint& b) {
-            return difference(a.color, color) < difference(b.color, color);
+            return largest_difference(a.color, color) < largest_difference(b.color, color);
         });
-    return nearest == paints_.end() || difference(nearest->color, color) > kSamePaint ? nullptr
-                                                                                      : &*nearest;
+    return nearest == paints_.end() || largest_difference(nearest->color, color) > kSamePaint
+               ? nullptr
+               : &*nearest;
 }
 
 Matte FlatFills::corrected(ViewU8x3 frame, ViewF1 phi) const {
@@ -319,7 +321,7 @@ Matte FlatFills::corrected(ViewU8x3 frame, ViewF1 phi) const {
         else
             decided[k] = found > 0.5 ? Decision::kInside : Decision::kOutside;
     }
-    const Recti box = box_of(fills, phi, decided);
+    const Recti box = box_around_surface(fills, phi, decided);
     if (box.empty()) return {};
     const Matte own = lines_.complete(sides_of(fills, phi, decided, box));
     bool differs = false;

@@ -40,11 +40,11 @@ glm::dmat3 similarity(const Corners& from, const Corners& to) {
     return {re, im, 0, -im, re, 0, t.x, t.y, 1};
 }
 
-struct Place {
+struct PlaceInDepth {
     glm::dvec2 at;
     double depth;
 };
-Place through(const glm::dmat3& m, Vec2 p) {
+PlaceInDepth through(const glm::dmat3& m, Vec2 p) {
     const glm::dvec3 q = m * glm::dvec3(glm::dvec2(p), 1.0);
     return {glm::dvec2(q.x, q.y) / q.z, q.z};
 }
@@ -76,8 +76,9 @@ RotoShape moved(const RotoShape& shape, const glm::dmat3& motion) {
     RotoShape out = shape;
     std::optional<bool> side;
     for (RotoPoint& point : out.points) {
-        const Place at = through(motion, point.at), in = through(motion, point.at + point.in),
-                    end = through(motion, point.at + point.out);
+        const PlaceInDepth at = through(motion, point.at),
+                           in = through(motion, point.at + point.in),
+                           end = through(motion, point.at + point.out);
         for (const double depth : {at.depth, in.depth, end.depth}) {
             constexpr double kLeast = 1e-9;
             if (!(std::abs(depth) > kLeast) || (side && *side != (depth > 0))) return shape;

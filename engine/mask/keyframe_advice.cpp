@@ -35,8 +35,8 @@ Stretch worst_stretch(const std::vector<FrameConfidence>& frames, const std::vec
 }
 
 // The frame that halves a stretch's shortfall.
-std::size_t middle_of(const std::vector<FrameConfidence>& frames, const Stretch& stretch,
-                      float wanted) {
+std::size_t halving_frame(const std::vector<FrameConfidence>& frames, const Stretch& stretch,
+                          float wanted) {
     float sum = 0;
     for (std::size_t i = stretch.first; i < stretch.last; ++i) {
         sum += std::max(0.0f, wanted - frames[i].confidence);
@@ -54,7 +54,7 @@ std::vector<int> suggest_keyframes(std::vector<FrameConfidence> frames,
     while (static_cast<int>(suggested.size()) < most) {
         const Stretch stretch = worst_stretch(frames, keys, wanted);
         if (stretch.shortfall <= 0) break;
-        const int frame = frames[middle_of(frames, stretch, wanted)].frame;
+        const int frame = frames[halving_frame(frames, stretch, wanted)].frame;
         suggested.push_back(frame);
         keys.insert(std::upper_bound(keys.begin(), keys.end(), frame), frame);
         for (FrameConfidence& f : frames) {

@@ -7,27 +7,28 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "engine/mask/nearest_pixel.h"
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
 namespace {
 
-constexpr float kClose_px = 0.8f, kCloseShare = 0.05f;  // of the motion: moves as the background
+constexpr float kAsBackground_px = 0.8f, kAsBackgroundShare = 0.05f;  // of the motion
 // The shares of pixels that do: of davis_dance-twirl's larger islands 0.97 to 1 (one 0.65 on its
 // first frame), of the dancer 0 to 0.28.
-constexpr float kStays = 0.9f, kMoves = 0.5f;
-constexpr int kFewest = 12;  // pixels whose motion is known
-constexpr float kFrames = 3;
+constexpr float kStayShare = 0.9f, kMoveShare = 0.5f;
+constexpr int kFewestKnown = 12;  // pixels whose motion is known
+constexpr float kStayedFrames = 3;
 constexpr float kClearly_px = 2;  // outside, on the frame before
 constexpr float kNoPast = 0.8f;   // the share of an island that came from there
 // Log odds of the palette. Pieces of a coat that a shade had left, taken for a sleeve, have -0.2
 // and 0.3; what comes back from behind something 1.3 (a ball) and 3.5 to 3.8 (a drawn banner).
-constexpr double kOwn = 1;
+constexpr double kOwnColors = 1;
 constexpr float kCell_px = 4;          // in which places of the keyframe are counted
 constexpr float kMissingShare = 0.5f;  // of an island's pixels; with less missing it is another's
 // 8-bit levels of difference from the keyframe. Those islands have 16 to 250; what was painted and
 // is only cut off by something in front of it looks as it did.
-constexpr float kAnother = 10;
+constexpr float kChanged_levels = 10;
 
 // A connected part of the matte.
 struct Part {
@@ -37,21 +38,22 @@ struct Part {
     double difference = 0;  // from the keyframe, sum, if it is doubtful
     bool missed = true;     // may be a part of the surface that is missing
 
-    [[nodiscard]] bool is_measured() const { return known >= kFewest; }
+    [[nodiscard]] bool is_measured() const { return known >= kFewestKnown; }
     [[nodiscard]] float share() const {
         return static_cast<float>(with_background) / static_cast<float>(known);
     }
-    [[nodiscard]] bool has_stayed() const { return frames >= kFrames; }
+    [[nodiscard]] bool has_stayed() const { return frames >= kStayedFrames; }
     [[nodiscard]] bool mostly(int pixels) const {
-        return size >= kFewest && static_cast<float>(pixels) >= kNoPast * static_cast<float>(size);
+        return size >= kFewestKnown &&
+               static_cast<float>(pixels) >= kNoPast * static_cast<float>(size);
     }
     [[nodiscard]] bool came() const { return mostly(newcomers); }
     [[nodiscard]] bool has_no_past() const {
-        return (mostly(from_outside) && odds < kOwn * size) || (came() && !missed);
+        return (mostly(from_outside) && odds < kOwnColors * size) || (came() && !missed);
     }
     [[nodiscard]] bool is_doubtful() const { return has_stayed() || has_no_past(); }
     [[nodiscard]] bool is_foreign() const {
-        return is_doubtful() && difference > static_cast<double>(kAnother) * size;
+        return is_doubtful() && difference > static_cast<double>(kChanged_levels) * size;
     }
 };
 
@@ -76,7 +78,7 @@ double key_difference(const IslandInput& in, int x, int y) {
 bool moves_with_background(const IslandInput& in, int x, int y) {
     const float *d = in.flow.d.pixel(x, y), *b = in.background_motion.pixel(x, y);
     return std::hypot(d[0] - b[0], d[1] - b[1]) <
-           kClose_px * in.unit_px + kCloseShare * std::hypot(b[0], b[1]);
+           kAsBackground_px * in.unit_px + kAsBackgroundShare * std::hypot(b[0], b[1]);
 }
 
 // Labels from 1 on; 0 is outside.
@@ -87,10 +89,6 @@ int label_parts(ViewF1 phi, cv::Mat& labels) {
             inside.at<std::uint8_t>(y, x) = phi.row(y)[x] > 0 ? 1 : 0;
     }
     return cv::connectedComponents(inside, labels, 4, CV_32S);
-}
-
-Vec2i rounded(float x, float y) {
-    return {static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))};
 }
 
 // How many pixels of this frame the painted surface would fill beyond those that are seen of it.
@@ -105,7 +103,7 @@ float missing_pixels(const IslandInput& in) {
             if (in.phi.row(y)[x] <= 0 || in.entered.at(x, y) != 0) continue;
             ++seen_px;
             const float* k = in.key_from_cur.pixel(x, y);
-            const Vec2i at = rounded(k[0], k[1]) / cell;
+            const Vec2i at = nearest_pixel({k[0], k[1]}) / cell;
             if (at.x >= 0 && at.y >= 0 && at.x < w && at.y < h)
                 seen.at<std::uint8_t>(at.y, at.x) = 1;
         }
@@ -177,9 +175,10 @@ Matte LeftBehind::advance(const IslandInput& in) {
     std::vector<Part> parts = measure(in, labels, count, frames_);
     const auto largest = std::max_element(
         parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size < b.size; });
-    const bool apart = largest->is_measured() && largest->share() < kMoves;
+    const bool apart = largest->is_measured() && largest->share() < kMoveShare;
     for (Part& part : parts) {
-        if (apart && part.is_measured()) part.frames = part.share() > kStays ? part.frames + 1 : 0;
+        if (apart && part.is_measured())
+            part.frames = part.share() > kStayShare ? part.frames + 1 : 0;
     }
     largest->frames = 0;
     largest->from_outside = largest->newcomers = 0;

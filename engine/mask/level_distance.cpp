@@ -11,10 +11,10 @@
 namespace weft {
 namespace {
 
-constexpr int kBlock = 64;        // columns that one task sweeps
-constexpr float kNone = -1e9f;    // no crossing
-constexpr float kMost = 0.999f;   // of a way to the next pixel, so that it is not in its cell
-constexpr float kRefined_px = 8;  // up to which lines count instead of their ends
+constexpr int kTaskColumns = 64;  // columns that one task sweeps
+constexpr float kNoCrossing = -1e9f;
+constexpr float kMostOfWay = 0.999f;  // of a way to the next pixel, so that it is not in its cell
+constexpr float kRefined_px = 8;      // up to which lines count instead of their ends
 constexpr float kFull = 0.99f, kEmpty = 0.01f;  // coverage of pixels that an edge does not touch
 
 // Where the line crosses from the value `b` to `c`, 0–1; `a` and `d` are the values before and
@@ -26,10 +26,10 @@ float crossing(float far_a, float a, float b, float c, float d, float far_d, flo
         if (first >= kFull && last <= kEmpty) {
             const float sum = a + b + c + d;
             const float place = far_a > far_d ? sum - 1.5f : 2.5f - sum;
-            if (place >= 0 && place <= 1) return std::min(place, kMost);
+            if (place >= 0 && place <= 1) return std::min(place, kMostOfWay);
         }
     }
-    return std::min((level - b) / (c - b), kMost);
+    return std::min((level - b) / (c - b), kMostOfWay);
 }
 
 // The crossings of an image, by the edges of the grid of pixel centres.
@@ -104,11 +104,12 @@ double Crossings::square_in_cell(int x, int y, double px, double py) const {
                  : std::min(square_to_segment(at[0], at[3], p), square_to_segment(at[1], at[2], p));
 }
 
-// Sweeps the columns from x0 on, up to kBlock of them, and remembers the last crossing of each.
+// Sweeps the columns from x0 on, up to kTaskColumns of them, and remembers the last crossing of
+// each.
 class ColumnSweep {
   public:
     ColumnSweep(const Crossings& lines, int x0, int count) : lines_(lines), x0_(x0), count_(count) {
-        last_.fill(kNone);
+        last_.fill(kNoCrossing);
     }
     // Passes between the rows y and y + 1.
     void pass(int y) {
@@ -126,16 +127,16 @@ class ColumnSweep {
     const Crossings& lines_;
     int x0_, count_;
     bool met_ = false;
-    std::array<float, kBlock> last_{};
+    std::array<float, kTaskColumns> last_{};
 };
 
-// The nearest crossing in the pixel's own column: its y, or kNone.
+// The nearest crossing in the pixel's own column: its y, or kNoCrossing.
 ImageF1 nearest_in_columns(const Crossings& lines, Size size) {
-    ImageF1 near(size, kNone);
-    const auto blocks = static_cast<std::size_t>((size.width + kBlock - 1) / kBlock);
+    ImageF1 near(size, kNoCrossing);
+    const auto blocks = static_cast<std::size_t>((size.width + kTaskColumns - 1) / kTaskColumns);
     parallel_for(blocks, [&](std::size_t block) {
-        const int x0 = static_cast<int>(block) * kBlock;
-        const int count = std::min(kBlock, size.width - x0);
+        const int x0 = static_cast<int>(block) * kTaskColumns;
+        const int count = std::min(kTaskColumns, size.width - x0);
         ColumnSweep down(lines, x0, count);
         for (int y = 1; y < size.height; ++y) {
             down.pass(y - 1);
@@ -150,7 +151,7 @@ ImageF1 nearest_in_columns(const Crossings& lines, Size size) {
             float* above = near.row(y) + x0;
             // A crossing that is not there is far away.
             for (int i = 0; i < count; ++i) {
-                const float to_below = below[i] == kNone ? -kNone : below[i] - here;
+                const float to_below = below[i] == kNoCrossing ? -kNoCrossing : below[i] - here;
                 above[i] = to_below < here - above[i] ? below[i] : above[i];
             }
         }
@@ -170,7 +171,7 @@ struct Site {
 void row_envelope(const float* near, int width, int y, float reach, std::vector<Site>& sites) {
     sites.clear();
     for (int x = 0; x < width; ++x) {
-        if (near[x] == kNone) continue;
+        if (near[x] == kNoCrossing) continue;
         const double g = static_cast<double>(near[x]) - y;
         if (std::abs(g) > reach) continue;
         Site site{x, near[x], g * g, -std::numeric_limits<double>::infinity()};

@@ -9,6 +9,7 @@
 #include "engine/mask/background_motion.h"
 #include "engine/mask/background_plate.h"
 #include "engine/mask/boundary_refiner.h"
+#include "engine/mask/copy_of.h"
 #include "engine/mask/departure.h"
 #include "engine/mask/flat_fills.h"
 #include "engine/mask/growth_evidence.h"
@@ -18,6 +19,7 @@
 #include "engine/mask/match_evidence.h"
 #include "engine/mask/motion_return.h"
 #include "engine/mask/motion_sides.h"
+#include "engine/mask/nearest_pixel.h"
 #include "engine/mask/newcomers.h"
 #include "engine/mask/shape_transport.h"
 #include "engine/mask/signed_distance.h"
@@ -36,21 +38,9 @@ constexpr float kBandUnits = 10;       // pixels of 854×480 in a band
 constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
 
 template <class T, int C>
-Image<T, C> copy_of(ImageView<const T, C> v) {
-    Image<T, C> result(v.size());
-    for (int y = 0; y < v.height(); ++y)
-        std::copy(v.row(y), v.row(y) + static_cast<std::ptrdiff_t>(v.width()) * C, result.row(y));
-    return result;
-}
-
-template <class T, int C>
 void paste(Image<T, C>& into, const Image<T, C>& part, const Recti& at) {
     for (int y = 0; y < part.height(); ++y)
         std::copy(part.row(y), part.row(y) + part.stride(), into.pixel(at.x0, at.y0 + y));
-}
-
-Vec2i rounded(float x, float y) {
-    return {static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))};
 }
 
 Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
@@ -165,9 +155,9 @@ LocalColorField MatteWalker::State::fit_colors(ViewU8x3 part, const TransportedS
     for (ColorWindow& w : windows) {
         const float* d = shape.prev_from_cur.pixel(w.center.x, w.center.y);
         const float* k = key_from_cur.pixel(w.center.x, w.center.y);
-        w.source_centers = {rounded(static_cast<float>(area.x0 + w.center.x) + d[0],
-                                    static_cast<float>(area.y0 + w.center.y) + d[1]),
-                            rounded(k[0], k[1]), w.center};
+        w.source_centers = {nearest_pixel({static_cast<float>(area.x0 + w.center.x) + d[0],
+                                           static_cast<float>(area.y0 + w.center.y) + d[1]}),
+                            nearest_pixel({k[0], k[1]}), w.center};
     }
     // Neither what is hidden nor what has just appeared is known to be of either side.
     const ImageF1 expected = seen_distance(shape.phi, either(covered, shape.uncovered.appearing));
@@ -223,8 +213,8 @@ Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, Vi
                 const float* k = key_from_cur.pixel(x, y);
                 softness.at(x, y) = sample_bilinear(key_softness, k[0], k[1]);
                 const float* d = prev_from_cur.pixel(x, y);
-                const Vec2i p = rounded(static_cast<float>(area.x0 + x) + d[0],
-                                        static_cast<float>(area.y0 + y) + d[1]);
+                const Vec2i p = nearest_pixel({static_cast<float>(area.x0 + x) + d[0],
+                                               static_cast<float>(area.y0 + y) + d[1]});
                 expected.at(x, y) = last.at(std::clamp(p.x, 0, last.width() - 1),
                                             std::clamp(p.y, 0, last.height() - 1));
             }

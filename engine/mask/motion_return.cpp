@@ -15,38 +15,41 @@ namespace weft {
 namespace {
 
 constexpr double kLost = 0.1, kSeen = 0.3, kBack = 0.8;  // shares of the usual area
-constexpr double kFollow = 0.1;                          // of that area, from frame to frame
+constexpr double kFollowArea = 0.1;                      // of that area, from frame to frame
 constexpr double kSmallest = 0.2, kLargest = 2.5;        // shares of it that a piece may have
 constexpr double kAhead = 1.5;                           // of any other piece
 constexpr double kOverlap = 0.3;                         // with the piece of the frame before
-constexpr int kFrames = 3, kTaken = 10;                  // in a row, and afterwards
+constexpr int kFramesInRow = 3, kTaken = 10;             // in a row, and afterwards
 constexpr float kMostMotion = 3, kMostColor = 2;         // log odds
 constexpr double kLeastMotion = 0.5;                     // log odds, mean of a piece
 constexpr float kSpread_px = 4;                          // of the evidence, at 854×480
-constexpr int kStep = 2;                                 // px: it is gathered on each such pixel
+constexpr int kEvidenceStep = 2;                         // px: it is gathered on each such pixel
 
 // Log odds, averaged near by.
 cv::Mat evidence(const MotionReturnInput& in) {
     const Size size = in.frame.size();
-    cv::Mat odds((size.height + kStep - 1) / kStep, (size.width + kStep - 1) / kStep, CV_32F);
+    cv::Mat odds((size.height + kEvidenceStep - 1) / kEvidenceStep,
+                 (size.width + kEvidenceStep - 1) / kEvidenceStep, CV_32F);
     parallel_rows(odds.rows, 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < odds.cols; ++x) {
-                const float motion = in.departs.row(y * kStep)[x * kStep];
-                const float color = in.palette.odds(in.frame.pixel(x * kStep, y * kStep));
+                const float motion = in.departs.row(y * kEvidenceStep)[x * kEvidenceStep];
+                const float color =
+                    in.palette.odds(in.frame.pixel(x * kEvidenceStep, y * kEvidenceStep));
                 odds.at<float>(y, x) = std::clamp(motion, -kMostMotion, kMostMotion) +
                                        std::clamp(color, -kMostColor, kMostColor);
             }
         }
     });
-    const int r = std::max(1, static_cast<int>(std::lround(kSpread_px * in.unit_px / kStep)));
+    const int r =
+        std::max(1, static_cast<int>(std::lround(kSpread_px * in.unit_px / kEvidenceStep)));
     cv::boxFilter(odds, odds, CV_32F, cv::Size(2 * r + 1, 2 * r + 1));
     return odds;
 }
 
 // Which piece each of the pixels is of, 0: none. Pieces that nearly touch are one.
 cv::Mat pieces_in(const cv::Mat& odds, float unit_px) {
-    const int r = std::max(1, static_cast<int>(std::lround(kSpread_px * unit_px / kStep)));
+    const int r = std::max(1, static_cast<int>(std::lround(kSpread_px * unit_px / kEvidenceStep)));
     const cv::Mat disc =
         cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * r + 1, 2 * r + 1));
     cv::Mat over = odds > 0, labels;
@@ -91,7 +94,7 @@ int MotionReturn::best_of(const std::vector<Piece>& pieces) const {
         const Piece& piece = pieces[i];
         if (piece.area_px < kSmallest * usual_px_ || piece.area_px > kLargest * usual_px_) continue;
         // Colour alone is not enough: another board may hang where the first one was.
-        if (piece.motion * kStep * kStep < kLeastMotion * piece.area_px) continue;
+        if (piece.motion * kEvidenceStep * kEvidenceStep < kLeastMotion * piece.area_px) continue;
         if (piece.weight > most) {
             next = std::exchange(most, piece.weight);
             best = static_cast<int>(i);
@@ -118,13 +121,13 @@ bool MotionReturn::stays(const Matte& found, const FlowField& flow) {
     }
     const bool same = static_cast<double>(common) >= kOverlap * static_cast<double>(area);
     frames_ = same ? frames_ + 1 : 1;
-    return frames_ >= kFrames;
+    return frames_ >= kFramesInRow;
 }
 
 Matte MotionReturn::returned(const MotionReturnInput& in) {
     const double seen = area_of(in.phi);
     if (seen >= kLost * usual_px_ && taken_ == 0) {
-        if (seen >= kSeen * usual_px_) usual_px_ += kFollow * (seen - usual_px_);
+        if (seen >= kSeen * usual_px_) usual_px_ += kFollowArea * (seen - usual_px_);
         candidate_ = {};
         frames_ = 0;
         return {};
@@ -139,9 +142,9 @@ Matte MotionReturn::returned(const MotionReturnInput& in) {
     for (int y = 0; y < labels.rows; ++y) {
         for (int x = 0; x < labels.cols; ++x) {
             Piece& piece = pieces[static_cast<std::size_t>(labels.at<int>(y, x))];
-            piece.area_px += kStep * kStep;
-            piece.motion += double{in.departs.row(y * kStep)[x * kStep]};
-            const bool was_found = in.phi.row(y * kStep)[x * kStep] > 0;
+            piece.area_px += kEvidenceStep * kEvidenceStep;
+            piece.motion += double{in.departs.row(y * kEvidenceStep)[x * kEvidenceStep]};
+            const bool was_found = in.phi.row(y * kEvidenceStep)[x * kEvidenceStep] > 0;
             piece.weight += goes_on ? (was_found ? 1.0 : 0.0) : double{odds.at<float>(y, x)};
         }
     }
@@ -156,7 +159,7 @@ Matte MotionReturn::returned(const MotionReturnInput& in) {
     found_ = {};
     for (int y = 0; y < found.height(); ++y) {
         for (int x = 0; x < found.width(); ++x) {
-            if (labels.at<int>(y / kStep, x / kStep) != best) continue;
+            if (labels.at<int>(y / kEvidenceStep, x / kEvidenceStep) != best) continue;
             found.at(x, y) = 255;
             found_.add(x, y);
         }

@@ -13,14 +13,14 @@
 namespace weft {
 namespace {
 
-constexpr float kEvery_px = 3;                          // in both directions
-constexpr float kInside_px = 2;                         // motion at the boundary is mixed
-constexpr std::size_t kFewest = 60;                     // samples
+constexpr float kEvery_px = 3;   // in both directions
+constexpr float kInside_px = 2;  // motion at the boundary is mixed
+constexpr std::size_t kFewestSamples = 60;
 constexpr float kClose_px = 0.7f, kCloseShare = 0.05f;  // of the motion: moves as the piece does
 // The share that does.
 constexpr float kBent = 0.8f, kStiff = 0.95f;
 constexpr float kTogether_px = 0.8f, kApart_px = 2;  // between both motions
-constexpr float kMemory = 0.9f;                      // of the evidence, from frame to frame
+constexpr float kSidesMemory = 0.9f;                 // of the evidence, from frame to frame
 
 // Of what is surely inside, about as many at every size.
 std::vector<MotionSample> samples_inside(const SidesInput& in) {
@@ -41,7 +41,7 @@ std::vector<MotionSample> samples_inside(const SidesInput& in) {
 
 // How far the surface moves as one piece, 0 to 1.
 float stiffness(const std::vector<MotionSample>& samples, const PlaneMotion& piece, float unit_px) {
-    if (samples.size() < kFewest) return 0;
+    if (samples.size() < kFewestSamples) return 0;
     const auto close = std::count_if(samples.begin(), samples.end(), [&](const MotionSample& s) {
         return glm::length(s.d - piece.at(s.x, s.y)) <
                kClose_px * unit_px + kCloseShare * glm::length(s.d);
@@ -77,7 +77,7 @@ ImageF1 MotionSides::advance(const SidesInput& in) {
                               : 0;
                 const float before =
                     last(static_cast<float>(fx) + d[0], static_cast<float>(fy) + d[1]);
-                out.row(y)[x] = std::clamp(kMemory * before + trust * now, -kMost, kMost);
+                out.row(y)[x] = std::clamp(kSidesMemory * before + trust * now, -kMost, kMost);
             }
         }
     });

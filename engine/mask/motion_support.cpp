@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 // How many times less the picture must change along the other motion.
-constexpr float kAlike = 1.2f, kAnother = 2;
+constexpr float kSameMotion = 1.2f, kOtherMotion = 2;
 constexpr float kNoise = 3;  // 8-bit levels
 
 bool has_patch(Vec2i p, Size size) {
@@ -43,7 +43,7 @@ float difference_along(const FramePair& pair, Vec2i at, Vec2 motion) {
 float speaks_against(const FramePair& pair, Vec2i at, Vec2 motion, Vec2 other) {
     const float ratio = (difference_along(pair, at, motion) + kNoise) /
                         (difference_along(pair, at, other) + kNoise);
-    return smooth_step(ratio, kAlike, kAnother);
+    return smooth_step(ratio, kSameMotion, kOtherMotion);
 }
 
 }  // namespace weft

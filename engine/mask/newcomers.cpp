@@ -19,21 +19,21 @@
 namespace weft {
 namespace {
 
-constexpr float kClearly_px = 2;  // outside, on the frame before
-constexpr float kInside_px = 2;   // motion at the boundary is mixed
-constexpr int kRim_px = 2;        // beside the boundary
+constexpr float kClearlyOut_px = 2;  // outside, on the frame before
+constexpr float kMixed_px = 2;       // motion at the boundary is mixed
+constexpr int kRim_px = 2;           // beside the boundary
 // Half of how wide newcomers are where they are doubted. Of rendered sleeves, coats and walls
 // behind them, what was rightly taken in is at most 10 px deep when it is new, another sleeve 13
 // to 36.
 constexpr float kThick_px = 9;
-constexpr float kSpread_px = 10;  // of the evidence
-constexpr float kMemory = 0.9f;   // of it, from frame to frame
-constexpr float kMost = 4;        // log odds of it
-constexpr float kOwn = 2;         // from which on a newcomer is none any more
-constexpr float kWeight = 2;      // since colours speak against it; with 3 walls lose more
-constexpr float kAgree = 0.3f;    // deviation of the surface's motion, of what it is told from
+constexpr float kEvidenceSpread_px = 10;  // of the evidence
+constexpr float kNewcomerMemory = 0.9f;   // of it, from frame to frame
+constexpr float kMostEvidence = 4;        // log odds of it
+constexpr float kAccepted = 2;            // from which on a newcomer is none any more
+constexpr float kWeight = 2;              // since colours speak against it; with 3 walls lose more
+constexpr float kAgree = 0.3f;  // deviation of the surface's motion, of what it is told from
 // Of the surface, to tell whether a part goes as a newcomer does.
-constexpr float kEvery_px = 6, kPart = 0.1f, kTogether_px = 0.8f;
+constexpr float kPartEvery_px = 6, kPart = 0.1f, kPartTogether_px = 0.8f;
 
 // Whether a pixel of the frame has no past that motion can tell, and lies where the surface has
 // moved away from what surrounds it.
@@ -54,18 +54,18 @@ Vec2 pixel_of(ViewF2 field, int x, int y) {
 }
 
 // Where a pixel was on the frame before.
-Vec2 place_before(const FlowField& flow, int x, int y) {
+Vec2 place_by_flow(const FlowField& flow, int x, int y) {
     return Vec2(x, y) + pixel_of(flow.d, x, y);
 }
 
-bool lies_in(Vec2 p, Size size) {
+bool can_be_sampled(Vec2 p, Size size) {
     return p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(size.width - 1) &&
            p.y <= static_cast<float>(size.height - 1);
 }
 
 // Motions of some of the pixels that have a weight.
 std::vector<Vec2> some_motions(ViewF2 motion, ViewF1 weight, float unit_px) {
-    const int step = std::max(2, static_cast<int>(std::lround(kEvery_px * unit_px)));
+    const int step = std::max(2, static_cast<int>(std::lround(kPartEvery_px * unit_px)));
     std::vector<Vec2> out;
     for (int y = 0; y < weight.height(); y += step) {
         for (int x = 0; x < weight.width(); x += step)
@@ -83,7 +83,7 @@ bool any_part_goes(const std::vector<Vec2>& surface, Vec2 motion, float within) 
 }
 
 // The squares of a motion's lengths, and 1.
-ImageF2 squared(ViewF2 motion) {
+ImageF2 squared_lengths(ViewF2 motion) {
     ImageF2 out(motion.size());
     for (int y = 0; y < out.height(); ++y) {
         for (int x = 0; x < out.width(); ++x) {
@@ -104,9 +104,10 @@ void Newcomers::carry(const NewcomersInput& in) {
     parallel_rows(size.height, 32, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < size.width; ++x) {
-                const Vec2 p = place_before(in.flow, x, y);
-                const bool was_out = lies_in(p, size) && sample_bilinear(in.prev_phi, p.x, p.y) <
-                                                             -kClearly_px * in.unit_px;
+                const Vec2 p = place_by_flow(in.flow, x, y);
+                const bool was_out =
+                    can_be_sampled(p, size) &&
+                    sample_bilinear(in.prev_phi, p.x, p.y) < -kClearlyOut_px * in.unit_px;
                 const bool has_none = appears(in, x, y);
                 if (was_out) entered.at(x, y) = 255;
                 if (was_out || has_none) doubted.at(x, y) = 255;
@@ -133,9 +134,9 @@ ImageF1 Newcomers::trusted(const NewcomersInput& in) const {
             for (int x = 0; x < out.width(); ++x) {
                 const int fx = in.area.x0 + x, fy = in.area.y0 + y;
                 if (in.flow.valid.row(fy)[fx] == 0 || doubted_.at(fx, fy) != 0) continue;
-                const Vec2 p = place_before(in.flow, fx, fy);
+                const Vec2 p = place_by_flow(in.flow, fx, fy);
                 const float was = sample_bilinear(in.prev_phi, p.x, p.y);
-                out.at(x, y) = was > kInside_px * in.unit_px ? 1.0f : 0.0f;
+                out.at(x, y) = was > kMixed_px * in.unit_px ? 1.0f : 0.0f;
             }
         }
     });
@@ -147,7 +148,7 @@ void Newcomers::judge(const NewcomersInput& in, const Matte& thick) {
     const ImageF1 weight = trusted(in);
     const ImageF2 surface = spread_motion(motion, weight, Vec2(0), in.unit_px);
     const std::vector<Vec2> all = some_motions(motion, weight, in.unit_px);
-    const ImageF2 squares = spread_motion(squared(motion), weight, Vec2(0), in.unit_px);
+    const ImageF2 squares = spread_motion(squared_lengths(motion), weight, Vec2(0), in.unit_px);
     parallel_rows(in.area.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < in.area.width(); ++x) {
@@ -155,7 +156,7 @@ void Newcomers::judge(const NewcomersInput& in, const Matte& thick) {
                 if (thick.at(x, y) == 0 || doubted_.at(fx, fy) == 0) continue;
                 if (in.flow.valid.row(fy)[fx] == 0) continue;
                 // What comes only now, and where a patch shows both sides.
-                const Vec2 p = place_before(in.flow, fx, fy);
+                const Vec2 p = place_by_flow(in.flow, fx, fy);
                 if (sample_bilinear(in.prev_phi, p.x, p.y) <= kPatchRadius + 1) continue;
                 const Vec2 moved = pixel_of(motion, x, y), of_surface = pixel_of(surface, x, y);
                 // Nothing of the surface is near, or its motion there is not one.
@@ -166,13 +167,13 @@ void Newcomers::judge(const NewcomersInput& in, const Matte& thick) {
                     continue;
                 float now =
                     side_of(moved, of_surface, pixel_of(in.outside_motion, x, y), in.unit_px);
-                if (now < 0 && any_part_goes(all, moved, kTogether_px * in.unit_px)) continue;
+                if (now < 0 && any_part_goes(all, moved, kPartTogether_px * in.unit_px)) continue;
                 if (now < 0)
                     now *= speaks_against({in.frame, in.prev_frame, in.area}, {fx, fy}, of_surface,
                                           moved);
                 float& sum = odds_.at(fx, fy);
-                sum = std::clamp(kMemory * sum + now, -kMost, kMost);
-                if (sum > kOwn) doubted_.at(fx, fy) = 0;
+                sum = std::clamp(kNewcomerMemory * sum + now, -kMostEvidence, kMostEvidence);
+                if (sum > kAccepted) doubted_.at(fx, fy) = 0;
             }
         }
     });
@@ -187,7 +188,7 @@ Matte Newcomers::thick_parts(const NewcomersInput& in) const {
     for (int y = 0; y < h; ++y) {
         for (int x = 0; x < w; ++x) {
             const int fx = in.area.x0 + x, fy = in.area.y0 + y;
-            const Vec2 p = place_before(in.flow, fx, fy);
+            const Vec2 p = place_by_flow(in.flow, fx, fy);
             const bool is = doubted_.at(fx, fy) != 0 && sample_bilinear(in.prev_phi, p.x, p.y) > 0;
             inside.at<std::uint8_t>(y, x) = is ? 255 : 0;
         }
@@ -201,7 +202,8 @@ Matte Newcomers::thick_parts(const NewcomersInput& in) const {
     Matte out(in.area.size());
     for (int y = 0; y < h; ++y) {
         for (int x = 0; x < w; ++x)
-            out.at(x, y) = far.at<float>(y, x) <= thick_px + kSpread_px * in.unit_px ? 255 : 0;
+            out.at(x, y) =
+                far.at<float>(y, x) <= thick_px + kEvidenceSpread_px * in.unit_px ? 255 : 0;
     }
     return out;
 }
@@ -217,7 +219,7 @@ ImageF1 Newcomers::spread(const NewcomersInput& in, const Matte& thick) const {
             known.at<cv::Vec2f>(y, x) = {1, odds_.at(fx, fy)};
         }
     }
-    const int r = std::max(1, static_cast<int>(std::lround(kSpread_px * in.unit_px)));
+    const int r = std::max(1, static_cast<int>(std::lround(kEvidenceSpread_px * in.unit_px)));
     cv::boxFilter(known, known, CV_32F, cv::Size(2 * r + 1, 2 * r + 1), cv::Point(-1, -1), true,
                   cv::BORDER_CONSTANT);
     ImageF1 out(in.area.size());

@@ -14,7 +14,7 @@ namespace {
 constexpr float kAgrees = 0.65f;  // correlation
 constexpr float kPattern_levels = 2.0f;
 constexpr double kLead = 1.5;
-constexpr float kMost = 0.4f;  // of the places around
+constexpr float kMostWanted = 0.4f;  // of the places around
 
 // The same at half the size; known and wanted where all of a block is.
 PatternPair halved(const PatternPair& pair) {
@@ -186,7 +186,7 @@ Matte agreeing_places(const ImageF1& found, const ImageF1& wanted, int radius) {
     Matte out(size);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
-            if (wanted.at(x, y) > 0 && share.at<float>(y, x) > kMost * among.at<float>(y, x))
+            if (wanted.at(x, y) > 0 && share.at<float>(y, x) > kMostWanted * among.at<float>(y, x))
                 out.at(x, y) = 255;
     return out;
 }

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr int kSteps = 16;
+constexpr int kCurveSteps = 16;
 
 Vec2 mixed(Vec2 a, Vec2 b, float t) {
     return a + (b - a) * t;
@@ -56,7 +56,7 @@ Matte polygon_matte(const std::vector<Vec2>& points, Size size) {
 }
 
 Matte matte_of_shape(const RotoShape& shape, Size size) {
-    const std::vector<Vec2> outline = outline_of(shape, kSteps);
+    const std::vector<Vec2> outline = outline_of(shape, kCurveSteps);
     Matte out = polygon_matte(outline, size);
     float widest = 0;
     for (const RotoPoint& point : shape.points)
@@ -69,8 +69,8 @@ Matte matte_of_shape(const RotoShape& shape, Size size) {
     const std::size_t count = shape.points.size();
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const Vec2 from = outline[k], to = outline[(k + 1) % outline.size()];
-        const float a = shape.points[k / kSteps].feather_px;
-        const float b = shape.points[(k / kSteps + 1) % count].feather_px;
+        const float a = shape.points[k / kCurveSteps].feather_px;
+        const float b = shape.points[(k / kCurveSteps + 1) % count].feather_px;
         // A shape of which most lies far away is no more than its part in the frame.
         constexpr float kMostDots = 1 << 14;
         const int dots = 1 + static_cast<int>(std::min(
@@ -83,7 +83,7 @@ Matte matte_of_shape(const RotoShape& shape, Size size) {
                   p.y < static_cast<float>(size.height)))
                 continue;
             const cv::Point at(static_cast<int>(p.x), static_cast<int>(p.y));
-            const float t = (static_cast<float>(k % kSteps) + part) / kSteps;
+            const float t = (static_cast<float>(k % kCurveSteps) + part) / kCurveSteps;
             curve.at<std::uint8_t>(at) = 0;
             places.emplace_back(at, a + t * (b - a));
         }

@@ -12,10 +12,10 @@ namespace {
 constexpr int kBits = 4;  // a cell's side is 16 levels; smoothed, the tolerance is about as much
 constexpr int kSide = 1 << kBits;
 constexpr int kCells = kSide * kSide * kSide;
-constexpr float kLeastShare = 2e-4f;    // of a colour that was not seen
-constexpr float kForeignShare = 6e-4f;  // what was not seen at all is more often something else
+constexpr float kLeastColorShare = 2e-4f;  // of a colour that was not seen
+constexpr float kForeignShare = 6e-4f;     // what was not seen at all is more often something else
 constexpr float kMostOdds = 4;
-constexpr float kFollow = 0.1f;  // weight of a frame against those before
+constexpr float kFrameWeight = 0.1f;  // weight of a frame against those before
 constexpr float kKeyClearancePx = 2;
 
 int cell_of(const std::uint8_t* c) {
@@ -24,7 +24,7 @@ int cell_of(const std::uint8_t* c) {
 }
 
 // A binomial blur along each axis of the cube: the estimate does not depend on where cells end.
-std::vector<float> smoothed(const std::vector<float>& shares) {
+std::vector<float> blurred_shares(const std::vector<float>& shares) {
     std::vector<float> from = shares, to(shares.size());
     for (const int step : {1, kSide, kSide * kSide}) {
         for (int i = 0; i < kCells; ++i) {
@@ -48,7 +48,7 @@ SurfacePalette::SurfacePalette(ViewU8x3 frame, ViewF1 phi)
 }
 
 void SurfacePalette::follow(ViewU8x3 frame, ViewF1 phi, float core_px) {
-    count(frame, phi, core_px, 1 - kFollow);
+    count(frame, phi, core_px, 1 - kFrameWeight);
     tabulate();
 }
 
@@ -75,9 +75,9 @@ void SurfacePalette::count(ViewU8x3 frame, ViewF1 phi, float clearance_px, float
 }
 
 void SurfacePalette::tabulate() {
-    const std::vector<float> in = smoothed(inside_), out = smoothed(outside_);
+    const std::vector<float> in = blurred_shares(inside_), out = blurred_shares(outside_);
     for (std::size_t i = 0; i < in.size(); ++i) {
-        const float ratio = (in[i] + kLeastShare) / (out[i] + kForeignShare);
+        const float ratio = (in[i] + kLeastColorShare) / (out[i] + kForeignShare);
         odds_[i] = std::clamp(std::log(ratio), -kMostOdds, kMostOdds);
     }
 }

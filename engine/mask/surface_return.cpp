@@ -21,7 +21,7 @@ namespace {
 constexpr int kLattice_px = 8;
 constexpr float kWellInside_px = 2;   // of where the surface is expected
 constexpr double kLeastShare = 0.01;  // of the keyframe's matte, that is missing or comes back
-constexpr double kLost = 0.1;         // of it is seen: where it is is not known any more
+constexpr double kLostShare = 0.1;    // of it is seen: where it is is not known any more
 constexpr double kLeast_px = 150;     // of a frame 854 wide
 
 ImageF1 luma_of(ViewU8x3 frame, const Recti& area) {
@@ -213,7 +213,7 @@ Matte SurfaceReturn::returned(ViewU8x3 frame, ViewF1 phi) {
         std::max(kLeastShare * key_area_px_, kLeast_px * static_cast<double>(unit_px_ * unit_px_));
     if (!is_piece_ || std::exchange(waits_, false)) return {};
     const glm::dmat3 before = key_from_cur_;
-    if (area_of(phi) < kLost * key_area_px_) look_around(frame);
+    if (area_of(phi) < kLostShare * key_area_px_) look_around(frame);
     const auto [count, where] = missing(phi);
     if (count < least) return {};
     const float unit = unit_px_ / static_cast<float>(step_);

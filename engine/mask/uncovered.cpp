@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/mask/nearest_pixel.h"
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
@@ -19,10 +20,6 @@ Vec2 place_before(ViewF2 motion, const Recti& area, int x, int y) {
     return {static_cast<float>(area.x0 + x) + d[0], static_cast<float>(area.y0 + y) + d[1]};
 }
 
-Vec2i rounded(Vec2 p) {
-    return {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y))};
-}
-
 bool lies_in(Vec2i p, Size size) {
     return p.x >= 0 && p.y >= 0 && p.x < size.width && p.y < size.height;
 }
@@ -32,7 +29,7 @@ cv::Mat count_origins(ViewF2 flow) {
     cv::Mat count(flow.height(), flow.width(), CV_32F, cv::Scalar(0));
     for (int y = 0; y < flow.height(); ++y) {
         for (int x = 0; x < flow.width(); ++x) {
-            const Vec2i from = rounded(place_before(flow, rect_of(flow.size()), x, y));
+            const Vec2i from = nearest_pixel(place_before(flow, rect_of(flow.size()), x, y));
             if (lies_in(from, flow.size())) count.at<float>(from.y, from.x) += 1;
         }
     }
@@ -42,20 +39,20 @@ cv::Mat count_origins(ViewF2 flow) {
 // 255 where pixels of the area have no valid motion and share the places that they come from.
 Matte parting_pixels(const FlowField& flow, const Recti& area) {
     constexpr float kShared = 1.3f;  // pixels that come from one
-    constexpr int kSide = 3, kMajority = 5;
+    constexpr int kMeanSide = 3, kMajority = 5;
     const Size full = flow.d.size();
     cv::Mat origins, shared(area.height(), area.width(), CV_32F, cv::Scalar(1));
-    cv::blur(count_origins(flow.d), origins, cv::Size(kSide, kSide));
+    cv::blur(count_origins(flow.d), origins, cv::Size(kMeanSide, kMeanSide));
     const ViewF2 motion = flow.d.view().crop(area);
     parallel_rows(area.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < area.width(); ++x) {
-                const Vec2i from = rounded(place_before(motion, area, x, y));
+                const Vec2i from = nearest_pixel(place_before(motion, area, x, y));
                 if (lies_in(from, full)) shared.at<float>(y, x) = origins.at<float>(from.y, from.x);
             }
         }
     });
-    cv::blur(shared, shared, cv::Size(kSide, kSide));
+    cv::blur(shared, shared, cv::Size(kMeanSide, kMeanSide));
     cv::Mat parting(area.height(), area.width(), CV_8U);
     for (int y = 0; y < area.height(); ++y) {
         const std::uint8_t* valid = flow.valid.row(area.y0 + y) + area.x0;
@@ -82,7 +79,7 @@ Matte appearing_pixels(const UncoveredInput& in) {
                 if (parting.at(x, y) == 0) continue;
                 const Vec2 surface = place_before(in.surface_motion, in.area, x, y);
                 const Vec2 around = place_before(in.outside_motion, in.area, x, y);
-                const Vec2i nearest = rounded(surface);
+                const Vec2i nearest = nearest_pixel(surface);
                 // What comes into the frame, or from behind something that is known to be in front.
                 if (!lies_in(nearest, in.prev_phi.size())) continue;
                 if (in.prev_seen.row(nearest.y)[nearest.x] == 0) continue;

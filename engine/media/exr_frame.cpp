@@ -162,7 +162,7 @@ void finish_spec(ImageSpec& spec, const WriteOptions& options, bool main_part) {
         spec.attribute(name, text);
 }
 
-bool encode(ImageOutput& output, const std::string& name, std::vector<ExrPart>& parts) {
+bool encode_parts(ImageOutput& output, const std::string& name, std::vector<ExrPart>& parts) {
     std::vector<ImageSpec> specs;
     for (const ExrPart& part : parts)
         specs.push_back(part.spec);
@@ -188,10 +188,10 @@ Status write_parts(const std::string& path, std::vector<ExrPart>& parts, const W
         // Encoded into memory first, so that all disk errors get our messages.
         std::vector<unsigned char> file;
         OIIO::Filesystem::IOVecOutput proxy(file);
-        if (!output->set_ioproxy(&proxy) || !encode(*output, path, parts))
+        if (!output->set_ioproxy(&proxy) || !encode_parts(*output, path, parts))
             return tl::unexpected(cannot_write(path, output->geterror()));
         WEFT_CHECK_OK(temporary.write(std::as_bytes(std::span(file))));
-    } else if (!encode(*output, temporary.name(), parts)) {
+    } else if (!encode_parts(*output, temporary.name(), parts)) {
         // OpenImageIO 2.4 writes several parts by name only, not through the proxy.
         const std::string reason = output->geterror();
         output.reset();

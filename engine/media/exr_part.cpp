@@ -13,7 +13,7 @@ namespace {
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-float load(const unsigned char* from, TypeDesc format) {
+float sample_at(const unsigned char* from, TypeDesc format) {
     if (format.basetype == TypeDesc::HALF) {
         half h;
         std::memcpy(&h, from, sizeof h);
@@ -80,7 +80,7 @@ ExrPart with_depth(ExrPart part, const std::array<int, 3>& rgb, PixelDepth depth
             if (from == to)
                 std::memcpy(target, source, from.size());
             else
-                store_sample(target, to, load(source, from));
+                store_sample(target, to, sample_at(source, from));
         }
     }
     return out;

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "engine/media/big_endian.h"
+
 namespace weft {
 namespace {
 
@@ -35,22 +37,17 @@ constexpr Known kKnown[] = {
     {"Adobe RGB (1998)", {0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.3290}},
 };
 
-std::uint32_t big_endian(const unsigned char* at) {
-    return static_cast<std::uint32_t>(at[0]) << 24 | static_cast<std::uint32_t>(at[1]) << 16 |
-           static_cast<std::uint32_t>(at[2]) << 8 | at[3];
-}
-
 // The text of one 'desc' tag: ASCII in version 2, UTF-16 in version 4, of which ASCII is kept.
 std::string text_of(const unsigned char* tag, std::size_t bytes) {
     if (bytes < 12) return {};
     const std::string_view kind(reinterpret_cast<const char*>(tag), 4);
     std::string out;
     if (kind == "desc") {
-        const std::size_t count = std::min<std::size_t>(big_endian(tag + 8), bytes - 12);
+        const std::size_t count = std::min<std::size_t>(big_endian_u32(tag + 8), bytes - 12);
         for (std::size_t i = 0; i < count && tag[12 + i] != 0; ++i)
             out += static_cast<char>(tag[12 + i]);
     } else if (kind == "mluc" && bytes >= 28) {
-        const std::size_t length = big_endian(tag + 20), start = big_endian(tag + 24);
+        const std::size_t length = big_endian_u32(tag + 20), start = big_endian_u32(tag + 24);
         if (start > bytes || length > bytes - start) return {};
         for (std::size_t i = 0; i + 1 < length; i += 2)
             out += tag[start + i] == 0 ? static_cast<char>(tag[start + i + 1]) : '?';
@@ -64,13 +61,13 @@ std::string text_of(const unsigned char* tag, std::size_t bytes) {
 std::string icc_profile_name(const unsigned char* profile, std::size_t bytes) {
     constexpr std::size_t kHeader = 128, kEntry = 12;  // ICC.1:2010, 7.2 and 7.3
     if (!profile || bytes < kHeader + 4) return {};
-    const std::uint32_t count = big_endian(profile + kHeader);
+    const std::uint32_t count = big_endian_u32(profile + kHeader);
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::size_t at = kHeader + 4 + i * kEntry;
         if (at + kEntry > bytes) return {};
         if (std::string_view(reinterpret_cast<const char*>(profile + at), 4) != "desc") continue;
-        const std::size_t offset = big_endian(profile + at + 4),
-                          size = big_endian(profile + at + 8);
+        const std::size_t offset = big_endian_u32(profile + at + 4),
+                          size = big_endian_u32(profile + at + 8);
         if (offset > bytes || size > bytes - offset) return {};
         return text_of(profile + offset, size);
     }

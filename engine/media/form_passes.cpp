@@ -33,7 +33,7 @@ const PassKind kDepth{
     "depth", {"Depth", "Z", "zdepth"}, {{"Z"}, {"V"}, {"z"}, {"R"}, {"Y"}}, setting::kDepthLayer};
 
 // An unreadable file is none; reading it says why.
-bool is_exr(const std::string& path) {
+bool is_exr_file(const std::string& path) {
     const auto input = open_picture(path);
     return input && std::string_view((*input)->format_name()) == "openexr";
 }
@@ -132,7 +132,7 @@ Expected<ImageF2> read_st_layer(const std::string& path, Size expected) {
 
 Expected<ImageF3> read_normals(const std::string& path, const std::string& layer, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
-    if (is_exr(path)) return read_vectors(path, kNormals, layer, expected);
+    if (is_exr_file(path)) return read_vectors(path, kNormals, layer, expected);
     WEFT_TRY(picture, read_image(path, layer));
     if (picture.depth != PixelDepth::kU8 && picture.depth != PixelDepth::kU16) {
         return tl::unexpected(unreadable(path, "a normal pass in floating point is expected as EXR",
@@ -148,7 +148,7 @@ Expected<ImageF3> read_normals(const std::string& path, const std::string& layer
 
 Expected<ImageF1> read_depth(const std::string& path, const std::string& layer, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
-    if (!is_exr(path)) {
+    if (!is_exr_file(path)) {
         return tl::unexpected(
             unreadable(path, "only an EXR of half or float holds distances, which a form needs",
                        "Render the depth pass as EXR, without normalising it."));

@@ -18,7 +18,7 @@ namespace {
 
 enum class Format { kPng, kJpeg, kTiff, kExr, kDpx, kUnknown };
 
-constexpr int kBandRows = 32;
+constexpr int kCodeBandRows = 32;
 constexpr float kLargestHalf = 65504.0f;
 
 Format format_of(const std::string& path) {
@@ -146,7 +146,7 @@ std::unique_ptr<T[]> pack(ViewF3 rgb, ViewF1 alpha, Convert convert) {
     const auto width = static_cast<std::size_t>(rgb.width());
     auto out = std::make_unique_for_overwrite<T[]>(width * static_cast<std::size_t>(rgb.height()) *
                                                    channels);
-    parallel_rows(rgb.height(), kBandRows, [&](int y0, int y1) {
+    parallel_rows(rgb.height(), kCodeBandRows, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             pack_row(rgb.row(y), alpha.empty() ? nullptr : alpha.row(y), width, convert,
                      out.get() + static_cast<std::size_t>(y) * width * channels);

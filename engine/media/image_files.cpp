@@ -26,7 +26,7 @@ namespace weft {
 namespace {
 
 // The matte's samples among a raster's channels. Luma reads three.
-struct Source {
+struct MatteChannels {
     bool luma = false;
     int channel = 0;
 };
@@ -47,16 +47,16 @@ bool has_transparency(const Raster& raster) {
 }
 
 // "R", "G", "B", "A", "Y" and the default, among the colour channels; empty if there is none.
-std::optional<Source> find_source(const Raster& raster, const std::string& channel) {
+std::optional<MatteChannels> find_source(const Raster& raster, const std::string& channel) {
     const bool grey = raster.colors() < 3;
     const int alpha = raster.channels - 1;
-    if (channel == "R") return Source{false, 0};
-    if (channel == "G") return Source{false, grey ? 0 : 1};
-    if (channel == "B") return Source{false, grey ? 0 : 2};
+    if (channel == "R") return MatteChannels{false, 0};
+    if (channel == "G") return MatteChannels{false, grey ? 0 : 1};
+    if (channel == "B") return MatteChannels{false, grey ? 0 : 2};
     if (channel == "A")
-        return raster.has_alpha ? std::optional(Source{false, alpha}) : std::nullopt;
-    if (channel.empty() && has_transparency(raster)) return Source{false, alpha};
-    return Source{!grey, 0};
+        return raster.has_alpha ? std::optional(MatteChannels{false, alpha}) : std::nullopt;
+    if (channel.empty() && has_transparency(raster)) return MatteChannels{false, alpha};
+    return MatteChannels{!grey, 0};
 }
 
 bool is_color_name(const std::string& channel) {
@@ -65,7 +65,7 @@ bool is_color_name(const std::string& channel) {
 }
 
 template <class T>
-float unit(T v) {
+float as_share(T v) {
     if constexpr (std::is_floating_point_v<T>) {
         return v;
     } else {
@@ -78,12 +78,12 @@ void quantise_codes(const std::vector<std::uint8_t>& samples, std::size_t channe
                     std::uint8_t* out) {
     std::array<std::uint8_t, 256> coverage_of{};
     for (std::size_t code = 0; code < coverage_of.size(); ++code)
-        coverage_of[code] = matte_code(unit(static_cast<std::uint8_t>(code)));
+        coverage_of[code] = matte_code(as_share(static_cast<std::uint8_t>(code)));
     for (std::size_t at = channel; at < samples.size(); at += step)
         *out++ = coverage_of[samples[at]];
 }
 
-Matte coverage(const Raster& raster, Source source) {
+Matte coverage(const Raster& raster, MatteChannels source) {
     Matte matte(raster.info.size);
     const auto step = static_cast<std::size_t>(raster.channels);
     const auto channel = static_cast<std::size_t>(source.channel);
@@ -97,8 +97,9 @@ Matte coverage(const Raster& raster, Source source) {
         [&](const auto& samples) {
             for (std::size_t i = 0, at = 0; at < samples.size(); ++i, at += step) {
                 const auto* p = samples.data() + at;
-                out[i] = matte_code(source.luma ? luma_709(unit(p[0]), unit(p[1]), unit(p[2]))
-                                                : unit(p[channel]));
+                out[i] = matte_code(source.luma
+                                        ? luma_709(as_share(p[0]), as_share(p[1]), as_share(p[2]))
+                                        : as_share(p[channel]));
             }
         },
         raster.samples);
@@ -197,7 +198,7 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
     WEFT_TRY(raster, read_raster(path, request));
     WEFT_CHECK_OK(check_plate_size(path, "it", raster.info.size, expected, "scale or crop it"));
 
-    Source source;
+    MatteChannels source;
     if (by_color && !raster.palette_indices) {
         const auto found = find_source(raster, select.channel);
         if (!found) return tl::unexpected(no_channel(path, raster, select.channel));

@@ -40,7 +40,7 @@ class OpenMovies {
     std::deque<std::pair<Hash128, std::shared_ptr<const MatteMovie>>> open_;
 };
 
-Matte coverage(const PlateFrame& frame, const std::string& channel) {
+Matte coverage_in(const PlateFrame& frame, const std::string& channel) {
     Matte matte(frame.rgb.size());
     std::uint8_t* const out = matte.data();
     const auto pixels = matte.size_bytes();
@@ -132,7 +132,7 @@ Expected<Matte> MatteMovie::read(int index, const std::string& channel) const {
         return tl::unexpected(unreadable(path_, "it has no channel '" + from + "'",
                                          "It has " + have + by({{setting::kMatteChannel}}) + "."));
     }
-    Matte matte = coverage(frame, from);
+    Matte matte = coverage_in(frame, from);
     keep({index, from, matte});
     return matte;
 }

@@ -48,7 +48,7 @@ Convention convention_of(MotionConvention convention) {
     return {{"R", "G"}, {"R", "G"}, {"motionvector", ""}, C::kPixels, 1, -1, false};
 }
 
-PassKind kind_of(const Convention& convention, bool forward) {
+PassKind pass_kind(const Convention& convention, bool forward) {
     const auto& channels = forward ? convention.forward : convention.backward;
     PassKind kind{"motion", {}, {{channels[0], channels[1]}}, setting::kMotionLayer};
     for (std::size_t k = 0; k < convention.layers.size(); ++k) {
@@ -87,7 +87,7 @@ Expected<FoundPass> locate_motion(const std::string& path, const MotionSelect& s
                                   const std::vector<std::string>& beside) {
     WEFT_CHECK_OK(check_picture_exists(path));
     const PassKind kind =
-        kind_of(convention_of(select.convention), select.direction == MotionDirection::kForward);
+        pass_kind(convention_of(select.convention), select.direction == MotionDirection::kForward);
     WEFT_TRY(layers, list_pass_layers(path));
     auto found = find_pass(layers, kind, select.layer, beside);
     if (!found && select.layer.empty()) found = find_unnamed(layers, kind);
@@ -129,7 +129,7 @@ Expected<FlowField> read_motion(const std::string& path, const MotionSelect& sel
     if (select.convention == MotionConvention::kFiles) return read_flow(path, expected);
     const Convention convention = convention_of(select.convention);
     const bool forward = select.direction == MotionDirection::kForward;
-    const PassKind kind = kind_of(convention, forward);
+    const PassKind kind = pass_kind(convention, forward);
     WEFT_TRY(pass, locate_motion(path, select));
     Size size;
     WEFT_TRY(vector, read_pass(path, kind, pass, expected, size));

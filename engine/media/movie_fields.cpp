@@ -20,7 +20,7 @@ constexpr int kBeginning = 96, kEvery = 250, kInARow = 16;
 constexpr double kFlagged = 0.2, kUnflagged = 0.5;
 
 // The upper 8 bits of the first component, luma or red; empty where it cannot be read so.
-Matte luma_of(const AVFrame& frame) {
+Matte luma_codes(const AVFrame& frame) {
     const AVPixFmtDescriptor* format =
         av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
     constexpr std::uint64_t kOther = AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_BITSTREAM |
@@ -60,7 +60,7 @@ void MovieFields::add(const AVFrame& frame) {
         meter_.skip();
         return;
     }
-    meter_.add(luma_of(frame));
+    meter_.add(luma_codes(frame));
 }
 
 bool MovieFields::are_interlaced() const {

@@ -99,9 +99,9 @@ void fill_bgr0(ViewF3 display_rgb, AVFrame& frame) {
 
 // ---- decoded frames to RGB -------------------------------------------------------------------
 
-namespace {
-
 enum class MovieMatrix { kRgb, kBt601, kBt709, kSmpte240m, kFcc, kBt2020 };
+
+namespace {
 
 MovieMatrix matrix_of(const AVFrame& frame) {
     const AVPixFmtDescriptor* format =
@@ -182,7 +182,7 @@ AVPixelFormat working_format(AVPixelFormat from, const AVPixFmtDescriptor& forma
 struct Luma {
     float r, b;
 };
-Luma luma_of(MovieMatrix matrix) {
+Luma luma_weights(MovieMatrix matrix) {
     switch (matrix) {
         case MovieMatrix::kBt709:
             return {0.2126f, 0.0722f};
@@ -371,7 +371,7 @@ std::shared_ptr<const Raster> MovieConverter::convert(const AVFrame& frame, int 
             is_rgb(setup_->from, format)
                 ? packed<T>(*working_, raster->channels)
                 : rgb_from_ycc<T>(
-                      *working_, luma_of(setup_->matrix),
+                      *working_, luma_weights(setup_->matrix),
                       Levels(std::clamp(format.comp[0].depth, 8, 16), setup_->full_range),
                       raster->has_alpha);
         if (rotation_deg != 0) {

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kRecentBudget_bytes = std::size_t{48} << 20;
 
-std::size_t bytes_of(const Raster& raster) {
+std::size_t sample_bytes(const Raster& raster) {
     return std::visit([](const auto& samples) { return samples.size() * sizeof(samples[0]); },
                       raster.samples);
 }
@@ -65,7 +65,7 @@ class MovieFrames {
     }
 
     void keep(int index, const std::shared_ptr<const Raster>& raster) {
-        const std::size_t bytes = std::max<std::size_t>(1, bytes_of(*raster));
+        const std::size_t bytes = std::max<std::size_t>(1, sample_bytes(*raster));
         kept_frames_ =
             static_cast<int>(std::clamp<std::size_t>(kRecentBudget_bytes / bytes, 1, 64));
         recent_.emplace_back(index, raster);

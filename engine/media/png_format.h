@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "engine/core/geometry.h"
+#include "engine/media/big_endian.h"
 
 namespace weft {
 
@@ -33,16 +34,6 @@ struct PngShape {
 inline constexpr std::string_view kPngSignature{"\x89PNG\r\n\x1a\n", 8};
 /// A chunk's length and name in front of its data, and the checksum behind it.
 inline constexpr std::size_t kPngChunkHead = 8, kPngChunkTail = 4;
-
-/// The number in the four bytes at `from`, most significant first.
-[[nodiscard]] inline std::uint32_t big_endian_u32(const unsigned char* from) {
-    return std::uint32_t{from[0]} << 24 | std::uint32_t{from[1]} << 16 |
-           std::uint32_t{from[2]} << 8 | std::uint32_t{from[3]};
-}
-inline void put_big_endian_u32(unsigned char* to, std::uint32_t value) {
-    for (int i = 0; i < 4; ++i)
-        to[i] = static_cast<unsigned char>(value >> (24 - 8 * i));
-}
 
 /// Filters `row` by Sub or Up, whichever leaves the smaller sum of differences, into `to`: the
 /// filter's byte, then as many bytes as the row has. `above` is the row before it, or null for the

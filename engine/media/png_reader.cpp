@@ -30,13 +30,13 @@ struct PngFailure {
 void on_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 // libpng's position in the file.
-struct Source {
+struct PngSource {
     const InputFile& file;
     std::uint64_t at = 0;
 };
 
 void on_read(png_structp png, png_bytep to, png_size_t count) {
-    auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+    auto& source = *static_cast<PngSource*>(png_get_io_ptr(png));
     const auto got = source.file.read_at(source.at, to, count);
     if (!got || *got < count) throw PngFailure{"Read Error"};
     source.at += count;
@@ -104,7 +104,7 @@ class PngHandle {
     }
 
   private:
-    Source source_;
+    PngSource source_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
 };
@@ -175,7 +175,7 @@ std::vector<T> read_rows(const PngHandle& handle, int channels) {
 
 // libpng reads what is unusual, and says what is wrong with what is damaged.
 template <class T>
-void fill(Raster& raster, const PngHandle& handle, bool raw_codes) {
+void read_into(Raster& raster, const PngHandle& handle, bool raw_codes) {
     auto plain = read_plain<T>(handle);
     if (!plain) set_transforms(handle, raw_codes);
     raster.channels = png_get_channels(handle.png(), handle.info());
@@ -194,9 +194,9 @@ Expected<Raster> read_open(const InputFile& file, const std::string& path, bool 
     raster.palette_indices =
         raw_codes && png_get_color_type(handle.png(), handle.info()) == PNG_COLOR_TYPE_PALETTE;
     if (raster.info.kind == SampleKind::kU16) {
-        fill<std::uint16_t>(raster, handle, raw_codes);
+        read_into<std::uint16_t>(raster, handle, raw_codes);
     } else {
-        fill<std::uint8_t>(raster, handle, raw_codes);
+        read_into<std::uint8_t>(raster, handle, raw_codes);
     }
     return raster;
 }

@@ -20,13 +20,13 @@ namespace {
 
 // Level 2 takes half as long again for files 3 % smaller (film frames, Sub and Up).
 constexpr int kLevel = 1;
-constexpr int kBandRows = 32;
+constexpr int kFilterBandRows = 32;
 
 struct FreeCompressor {
     void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
 };
 using Compressor = std::unique_ptr<libdeflate_compressor, FreeCompressor>;
-using Bytes = std::unique_ptr<unsigned char[]>;
+using OwnedBytes = std::unique_ptr<unsigned char[]>;
 
 // Completes a chunk whose data lie at `data` already. Returns its end.
 unsigned char* seal_chunk(unsigned char* data, std::string_view name, std::size_t bytes) {
@@ -44,7 +44,7 @@ void add_chunk(std::vector<unsigned char>& out, std::string_view name, std::stri
     seal_chunk(out.data() + at, name, data.size());
 }
 
-std::string big_endian(std::uint32_t value) {
+std::string four_bytes(std::uint32_t value) {
     unsigned char four[4];
     put_big_endian_u32(four, value);
     return {reinterpret_cast<const char*>(four), sizeof four};
@@ -56,8 +56,8 @@ std::vector<unsigned char> header(const PngShape& shape, const WriteOptions& opt
     using std::string_view_literals::operator""sv;
     static constexpr std::array<char, 4> kColourTypes{0, 4, 2, 6};  // by channels
     std::vector<unsigned char> out(kPngSignature.begin(), kPngSignature.end());
-    std::string about = big_endian(static_cast<std::uint32_t>(shape.size.width)) +
-                        big_endian(static_cast<std::uint32_t>(shape.size.height));
+    std::string about = four_bytes(static_cast<std::uint32_t>(shape.size.width)) +
+                        four_bytes(static_cast<std::uint32_t>(shape.size.height));
     about += static_cast<char>(8 * shape.bytes_per_sample);
     about += kColourTypes[static_cast<std::size_t>(shape.channels - 1)];
     about += "\0\0\0"sv;  // compression, filters and interlacing: the only or the usual kind
@@ -68,8 +68,8 @@ std::vector<unsigned char> header(const PngShape& shape, const WriteOptions& opt
     const float down = kAcross * static_cast<float>(options.pixel_aspect);
     if (options.pixel_aspect != 1 && down > 0) {
         add_chunk(out, "pHYs",
-                  big_endian(static_cast<std::uint32_t>(kAcross)) +
-                      big_endian(static_cast<std::uint32_t>(down)) + '\0');
+                  four_bytes(static_cast<std::uint32_t>(kAcross)) +
+                      four_bytes(static_cast<std::uint32_t>(down)) + '\0');
     }
     add_chunk(out, "tIME", "\x07\xb2\1\1\0\0\0"sv);  // 1970-01-01, not the present time
     if (!options.metadata.empty()) {
@@ -96,10 +96,10 @@ const unsigned char* row_of(const Samples& samples, const PngShape& shape, int y
     return scratch.data();
 }
 
-Bytes filter(const Samples& samples, const PngShape& shape) {
-    Bytes out = std::make_unique_for_overwrite<unsigned char[]>(shape.filtered_bytes());
+OwnedBytes filter(const Samples& samples, const PngShape& shape) {
+    OwnedBytes out = std::make_unique_for_overwrite<unsigned char[]>(shape.filtered_bytes());
     const std::size_t bytes = shape.row_bytes();
-    parallel_rows(shape.size.height, kBandRows, [&](int y0, int y1) {
+    parallel_rows(shape.size.height, kFilterBandRows, [&](int y0, int y1) {
         std::vector<unsigned char> scratch, scratch_above;
         const unsigned char* above =
             y0 == 0 ? nullptr : row_of(samples, shape, y0 - 1, scratch_above);
@@ -135,7 +135,7 @@ EncodedFile encode_png(const Samples& samples, const WriteOptions& options,
                        std::size_t largest_chunk) {
     const PngShape shape{samples.size, samples.channels, samples.kind == SampleKind::kU16 ? 2 : 1};
     const std::vector<unsigned char> head = header(shape, options);
-    const Bytes filtered = filter(samples, shape);
+    const OwnedBytes filtered = filter(samples, shape);
     const Compressor compressor(libdeflate_alloc_compressor(kLevel));
     if (!compressor) throw std::bad_alloc();
     constexpr std::size_t kFrame = kPngChunkHead + kPngChunkTail;

@@ -37,13 +37,14 @@ std::string coverage_channel(const FoundPass& pass) {
     return file_output ? pass.layer.channel("Z") : uv ? pass.layer.channel("A") : std::string();
 }
 
-constexpr float kWhole = 0.999f;
+constexpr float kWholePixel = 0.999f;
 
 // A third coordinate is no coverage.
 bool covers_any(const std::vector<float>& coverage) {
-    return std::any_of(coverage.begin(), coverage.end(), [](float v) { return v >= kWhole; }) &&
+    return std::any_of(coverage.begin(), coverage.end(),
+                       [](float v) { return v >= kWholePixel; }) &&
            std::all_of(coverage.begin(), coverage.end(),
-                       [](float v) { return v >= 0 && v <= 2 - kWhole; });
+                       [](float v) { return v >= 0 && v <= 2 - kWholePixel; });
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ Expected<ImageF2> read_uv(const std::string& path, const std::string& layer, Siz
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
     ImageF2 out(size);
     for (std::size_t i = 0; i < uv[0].size(); ++i) {
-        const bool known = !covers || uv[2][i] >= kWhole;
+        const bool known = !covers || uv[2][i] >= kWholePixel;
         out.data()[2 * i] = known ? uv[0][i] : kUnknown;
         out.data()[2 * i + 1] = known ? uv[1][i] : kUnknown;
     }

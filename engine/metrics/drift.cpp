@@ -172,7 +172,7 @@ struct Patch {
     double dx = 0, dy = 0;
 };
 
-Patch follow(const std::vector<Level>& pyramid, int x, int y) {
+Patch follow_patch(const std::vector<Level>& pyramid, int x, int y) {
     Patch p;
     for (int level = kLevels - 1; level >= 0; --level) {
         const Level& l = pyramid[static_cast<std::size_t>(level)];
@@ -215,7 +215,7 @@ ResidualMotion residual_motion(ViewF1 expected_luma, ViewF1 seen_luma, ViewU8x1 
             const int x = static_cast<int>(i) * step_px + step_px / 2;
             const int y = static_cast<int>(j) * step_px + step_px / 2;
             if (pyramid[0].inside.at(x, y) != 0)
-                patches[j * static_cast<std::size_t>(nx) + i] = follow(pyramid, x, y);
+                patches[j * static_cast<std::size_t>(nx) + i] = follow_patch(pyramid, x, y);
         }
     });
     RowSum length;

@@ -17,14 +17,14 @@ constexpr std::int64_t kLeastPixels = 200;
 constexpr double kShownShare = 0.6;  // of the largest area
 constexpr double kTiny = 1e-30;
 
-using Place = std::array<double, 3>;
-using Step = std::array<double, 2>;
+using Point3 = std::array<double, 3>;
+using TexelStep = std::array<double, 2>;
 
-double dot(const Place& a, const Place& b) {
+double dot(const Point3& a, const Point3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-Place cross(const Place& a, const Place& b) {
+Point3 cross(const Point3& a, const Point3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -65,8 +65,8 @@ class Pixels {
     }
 
     // Between two pixels; x right and y down.
-    [[nodiscard]] Step texels(int x0, int y0, int x1, int y1) const {
-        Step out{};
+    [[nodiscard]] TexelStep texels(int x0, int y0, int x1, int y1) const {
+        TexelStep out{};
         for (std::size_t c = 0; c < 2; ++c) {
             double d = static_cast<double>(st_.pixel(x1, y1)[c]) - st_.pixel(x0, y0)[c];
             d -= std::round(d);
@@ -75,22 +75,22 @@ class Pixels {
         return out;
     }
 
-    [[nodiscard]] Place metres(int x0, int y0, int x1, int y1) const {
-        Place out{};
+    [[nodiscard]] Point3 metres(int x0, int y0, int x1, int y1) const {
+        Point3 out{};
         for (std::size_t c = 0; c < 3; ++c)
             out[c] = static_cast<double>(positions_.pixel(x1, y1)[c]) - positions_.pixel(x0, y0)[c];
         return out;
     }
 
     // Not finite where a neighbour has no place; one-sided at the picture's border.
-    [[nodiscard]] Place normal(int x, int y) const {
+    [[nodiscard]] Point3 normal(int x, int y) const {
         if (!normals_.empty()) {
             const float* n = normals_.pixel(x, y);
             return {n[0], n[1], n[2]};
         }
         const int left = std::max(x - 1, 0), right = std::min(x + 1, positions_.width() - 1);
         const int top = std::max(y - 1, 0), bottom = std::min(y + 1, positions_.height() - 1);
-        Place n = cross(metres(left, y, right, y), metres(x, top, x, bottom));
+        Point3 n = cross(metres(left, y, right, y), metres(x, top, x, bottom));
         const double length = std::sqrt(dot(n, n));
         for (double& v : n)
             v /= length;
@@ -99,16 +99,16 @@ class Pixels {
 
     // Whether the same sheet goes on without a fold: false where a place is not known.
     [[nodiscard]] bool smooth(int x, int y, int dx, int dy) const {
-        const Place before = metres(x - dx, y - dy, x, y), after = metres(x, y, x + dx, y + dy);
+        const Point3 before = metres(x - dx, y - dy, x, y), after = metres(x, y, x + dx, y + dy);
         const double a = dot(before, before), b = dot(after, after);
         if (!(std::max(a, b) <= kMostUneven * kMostUneven * std::min(a, b))) return false;
         return dot(normal(x - dx, y - dy), normal(x + dx, y + dy)) > kFoldCosine;
     }
 
     [[nodiscard]] bool torn(int x, int y, int dx, int dy) const {
-        const Place before = metres(x - dx, y - dy, x, y), after = metres(x, y, x + dx, y + dy);
+        const Point3 before = metres(x - dx, y - dy, x, y), after = metres(x, y, x + dx, y + dy);
         const double ratio = std::sqrt(dot(after, after) / dot(before, before));
-        const Step first = texels(x - dx, y - dy, x, y), second = texels(x, y, x + dx, y + dy);
+        const TexelStep first = texels(x - dx, y - dy, x, y), second = texels(x, y, x + dx, y + dy);
         return std::hypot(second[0] - first[0] * ratio, second[1] - first[1] * ratio) > kTearTexels;
     }
 
@@ -116,7 +116,7 @@ class Pixels {
     ViewF3 positions_;
     ViewF2 st_;
     ViewF3 normals_;
-    Step texels_{};
+    TexelStep texels_{};
 };
 
 // aᵀa of the steps along x and y.
@@ -215,13 +215,13 @@ FormTruth::Seen FormTruth::add(int frame, ViewF3 positions, ViewF2 st, ViewU8x1 
         for (int x = 1; x < matte.width() - 1; ++x) {
             if (depth.at(x, y) <= kMarginPx * kMarginPx) continue;
             ++seen.inside;
-            const Place px = pixels.metres(x - 1, y, x + 1, y),
-                        py = pixels.metres(x, y - 1, x, y + 1);
+            const Point3 px = pixels.metres(x - 1, y, x + 1, y),
+                         py = pixels.metres(x, y - 1, x, y + 1);
             const Metric surface{dot(px, px), dot(px, py), dot(py, py)};
             if (!(surface.determinant() > 0)) continue;
             ++seen.placed;
-            const Step tx = pixels.texels(x - 1, y, x + 1, y),
-                       ty = pixels.texels(x, y - 1, x, y + 1);
+            const TexelStep tx = pixels.texels(x - 1, y, x + 1, y),
+                            ty = pixels.texels(x, y - 1, x, y + 1);
             const Metric texture{tx[0] * tx[0] + tx[1] * tx[1], tx[0] * ty[0] + tx[1] * ty[1],
                                  ty[0] * ty[0] + ty[1] * ty[1]};
             if (!std::isfinite(texture.xx + texture.yy)) continue;

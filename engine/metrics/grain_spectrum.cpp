@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 constexpr int kSide = 16;
-constexpr double kFlattest = 0.25;  // of all blocks
+constexpr double kFlattestBlocks = 0.25;  // of all blocks
 constexpr std::size_t kFewestBlocks = 8;
 
 ImageF1 channel(ViewF3 picture, int c) {
@@ -203,8 +203,8 @@ GrainSpectrum GrainSpectrumMeter::spectrum() const {
                    ? blocks_[a].flatness < blocks_[b].flatness
                    : a < b;
     });
-    order.resize(std::max(kFewestBlocks,
-                          static_cast<std::size_t>(kFlattest * static_cast<double>(order.size()))));
+    order.resize(std::max(kFewestBlocks, static_cast<std::size_t>(
+                                             kFlattestBlocks * static_cast<double>(order.size()))));
     out.blocks = static_cast<std::int64_t>(order.size());
     for (std::size_t c = 0; c < 3; ++c) {
         double all = 0;

@@ -31,14 +31,14 @@ void for_each_inside(ViewF1 a, ViewF1 b, ViewU8x1 inside, const Visit& visit) {
 }
 
 // Profiles across an edge.
-constexpr int kReach = 14;            // px to each side
+constexpr int kProfileReach = 14;     // px to each side
 constexpr int kAcross = 12;           // the gradient is the maximum within this many px
 constexpr int kBeside = 5;            // parallel profiles to each side, averaged against noise
 constexpr int kStep = 6;              // px between places that are tried
 constexpr double kLeastStep = 0.2;    // of ln light from one end of a profile to the other
 constexpr double kLeastSlope = 0.02;  // of ln light a px, in the middle
 constexpr int kEnds = 4;              // samples at each end that give its level
-using Profile = std::array<double, 2 * kReach + 1>;
+using Profile = std::array<double, 2 * kProfileReach + 1>;
 
 ImageF1 log_of(ViewF1 light) {
     ImageF1 out(light.size());
@@ -73,10 +73,10 @@ bool profile_at(const ImageF1& light, ViewU8x1 inside, double x, double y, Direc
                 Profile& out) {
     out.fill(0);
     for (int s = -kBeside; s <= kBeside; ++s) {
-        for (int t = -kReach; t <= kReach; ++t) {
+        for (int t = -kProfileReach; t <= kProfileReach; ++t) {
             const double u = x + t * d.x - s * d.y, v = y + t * d.y + s * d.x;
             if (!all_inside(inside, u, v)) return false;
-            out[static_cast<std::size_t>(t + kReach)] += bilinear(light, u, v);
+            out[static_cast<std::size_t>(t + kProfileReach)] += bilinear(light, u, v);
         }
     }
     for (double& v : out)
@@ -99,7 +99,7 @@ std::optional<Edge> edge_of(const Profile& p) {
         for (std::size_t k = 0; k + 1 < p.size(); ++k) {
             const double a = (p[k] - low) / (high - low), b = (p[k + 1] - low) / (high - low);
             if (!(a < share && share <= b)) continue;
-            const double at = static_cast<double>(k) + (share - a) / (b - a) - kReach;
+            const double at = static_cast<double>(k) + (share - a) / (b - a) - kProfileReach;
             if (!best || std::abs(at) < std::abs(*best)) best = at;
         }
         return best;
@@ -151,7 +151,7 @@ void ShadowEdges::add(ViewF1 result, ViewF1 truth, ViewU8x1 inside) {
         return Direction{0.25 * (real.row(y)[x + 2] - real.row(y)[x - 2]),
                          0.25 * (real.row(y + 2)[x] - real.row(y - 2)[x])};
     };
-    const int margin = kReach + kBeside + 3;
+    const int margin = kProfileReach + kBeside + 3;
     for (int y = margin; y < real.height() - margin; y += kStep) {
         for (int x = margin; x < real.width() - margin; ++x) {
             if (inside.row(y)[x] != 255) continue;

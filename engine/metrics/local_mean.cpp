@@ -9,14 +9,14 @@
 namespace weft {
 namespace {
 
-constexpr float kSigmaPx = 8.0f;
+constexpr float kMeanSigmaPx = 8.0f;
 constexpr int kRadiusPx = 24;  // Three σ.
 constexpr float kFloorLevels = 4.0f;
 
 std::vector<float> gaussian() {
     std::vector<float> w(2 * kRadiusPx + 1);
     for (int i = -kRadiusPx; i <= kRadiusPx; ++i) {
-        const float t = static_cast<float>(i) / kSigmaPx;
+        const float t = static_cast<float>(i) / kMeanSigmaPx;
         w[static_cast<std::size_t>(i + kRadiusPx)] = std::exp(-0.5f * t * t);
     }
     return w;

@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 constexpr int kFixedPointSteps = 30;
-constexpr float kSettledPx = 0.05f;
+constexpr float kInverseSettledPx = 0.05f;
 
 Vec2 centre(int x, int y) {
     return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
@@ -49,7 +49,7 @@ bool invert_at(const FlowField& cur_from_next, ViewU8x1 inside, Vec2 p, Vec2 gue
     }
     Vec2 b;
     if (!lookup_motion(cur_from_next, inside, q, b)) return false;
-    return std::hypot(q.x + b.x - p.x, q.y + b.y - p.y) < kSettledPx;
+    return std::hypot(q.x + b.x - p.x, q.y + b.y - p.y) < kInverseSettledPx;
 }
 
 // For each pixel of the target frame, the pixel of the source frame that lands nearest to its

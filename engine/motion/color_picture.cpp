@@ -34,10 +34,10 @@ Vec3 ratios(const std::uint8_t* rgb) {
     return v - (v.x + v.y + v.z) / 3;
 }
 
-using Moments = std::array<double, 9>;  // Σ x, y, z, xx, xy, xz, yy, yz, zz
+using ColorMoments = std::array<double, 9>;  // Σ x, y, z, xx, xy, xz, yy, yz, zz
 
 // The direction of greatest variance, by power iteration; and that variance.
-std::pair<Vec3, double> principal(const Moments& m, double n) {
+std::pair<Vec3, double> principal(const ColorMoments& m, double n) {
     const glm::dvec3 mean = glm::dvec3(m[0], m[1], m[2]) / n;
     const glm::dmat3 c(
         m[3] / n - mean.x * mean.x, m[4] / n - mean.x * mean.y, m[5] / n - mean.x * mean.z,
@@ -60,7 +60,7 @@ std::optional<ColorAxis> color_axis(ViewU8x3 display, ViewU8x1 visible) {
     // Means of blocks, in which grain counts little.
     constexpr int kBlock = 4;
     constexpr double kFewest = 40, kHardlyAny = 0.05;
-    Moments sum{};
+    ColorMoments sum{};
     double count = 0;
     for (int y = 0; y + kBlock <= display.height(); y += kBlock) {
         for (int x = 0; x + kBlock <= display.width(); x += kBlock) {
@@ -74,8 +74,8 @@ std::optional<ColorAxis> color_axis(ViewU8x3 display, ViewU8x1 visible) {
             }
             if (!inside) continue;
             const glm::dvec3 v = glm::dvec3(mean) / double{kBlock * kBlock};
-            const Moments own{v.x,       v.y,       v.z,       v.x * v.x, v.x * v.y,
-                              v.x * v.z, v.y * v.y, v.y * v.z, v.z * v.z};
+            const ColorMoments own{v.x,       v.y,       v.z,       v.x * v.x, v.x * v.y,
+                                   v.x * v.z, v.y * v.y, v.y * v.z, v.z * v.z};
             for (std::size_t k = 0; k < own.size(); ++k)
                 sum[k] += own[k];
             ++count;

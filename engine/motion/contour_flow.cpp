@@ -7,13 +7,10 @@
 #include <opencv2/video/tracking.hpp>
 #include <vector>
 
+#include "engine/motion/view_mat.h"
+
 namespace weft {
 namespace {
-
-cv::Mat as_mat(ViewU8x1 v) {
-    return {v.height(), v.width(), CV_8UC1, const_cast<std::uint8_t*>(v.data()),
-            static_cast<std::size_t>(v.stride())};
-}
 
 float median(std::vector<float>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -7,15 +7,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "engine/core/parallel.h"
+#include "engine/motion/view_mat.h"
 
 namespace weft {
 namespace {
-
-template <int C>
-cv::Mat as_mat(ImageView<const std::uint8_t, C> v) {
-    return {v.height(), v.width(), CV_8UC(C), const_cast<std::uint8_t*>(v.data()),
-            static_cast<std::size_t>(v.stride())};
-}
 
 template <int C>
 Image<std::uint8_t, C> reduced_picture(ImageView<const std::uint8_t, C> picture, Size to) {

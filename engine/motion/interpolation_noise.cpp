@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 // Correlations at 0 to 4 pixels.
-std::array<float, 5> correlations(float neighbours) {
+std::array<float, 5> correlations_at(float neighbours) {
     std::array<float, 5> out{1, neighbours};
     const float squared = neighbours * neighbours;
     // ρ^(d²): from d to d + 1 by ρ^(2d + 1).
@@ -32,7 +32,7 @@ float share_of_mean(float neighbours, float local_mean) {
 
 InterpolationNoise::InterpolationNoise(float neighbours, float local_mean)
     : mean_(std::min(share_of_mean(neighbours, local_mean), 0.9f)) {
-    const auto correlated = correlations(neighbours);
+    const auto correlated = correlations_at(neighbours);
     for (int k = 0; k <= kSteps; ++k) {
         const float t = static_cast<float>(k) / kSteps;
         const F4 w = weights_at(t), s = slopes_at(t);

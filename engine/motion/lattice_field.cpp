@@ -51,13 +51,13 @@ Vec2 interpolate(const ImageF2& nodes, const Tap& tx, const Tap& ty) {
 constexpr float kSettledPx = 0.01f;
 
 // p -> linear * p + offset.
-struct Affine {
+struct AffineMap {
     glm::mat2 linear{1};
     Vec2 offset{0};
 };
 
 // The affine part of the whole field, by least squares over its nodes.
-Affine mean_affine(const LatticeField& field) {
+AffineMap mean_affine(const LatticeField& field) {
     const ImageF2& nodes = field.nodes();
     const Vec2 middle = 0.5f * (field.node_position(0, 0) +
                                 field.node_position(nodes.width() - 1, nodes.height() - 1));
@@ -75,7 +75,7 @@ Affine mean_affine(const LatticeField& field) {
         }
     }
     mean /= static_cast<float>(nodes.width() * nodes.height());
-    Affine out;
+    AffineMap out;
     out.linear = glm::mat2(1) + glm::mat2(along_x / xx, along_y / yy);
     out.offset = middle + mean - out.linear * middle;
     return out;
@@ -84,7 +84,7 @@ Affine mean_affine(const LatticeField& field) {
 // Solves p + field(p) = `target` by Newton's method, starting from `start` or the solution for
 // `whole`. Returns the nearest of all places that were tried, because a field that folds over has
 // no root everywhere.
-Vec2 newton_root(const LatticeField& field, Vec2 target, Vec2 start, const Affine& whole) {
+Vec2 newton_root(const LatticeField& field, Vec2 target, Vec2 start, const AffineMap& whole) {
     const auto residual = [&](Vec2 p) { return target - (p + field.at(p)); };
     constexpr float kFlat = 1e-3f;
     Vec2 best = start;
@@ -243,7 +243,7 @@ LatticeField compose(const LatticeField& inner, const LatticeField& outer) {
 
 LatticeField inverse(const LatticeField& field) {
     LatticeField out(field.full_size(), field.spacing());
-    std::optional<Affine> whole;
+    std::optional<AffineMap> whole;
     for (int j = 0; j < out.nodes().height(); ++j) {
         for (int i = 0; i < out.nodes().width(); ++i) {
             const Vec2 target = out.node_position(i, j);

@@ -6,15 +6,12 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/motion/view_mat.h"
+
 namespace weft {
 namespace {
 
 constexpr int kPoints = 180;
-
-cv::Mat as_mat(ViewU8x1 v) {
-    return {v.height(), v.width(), CV_8UC1, const_cast<std::uint8_t*>(v.data()),
-            static_cast<std::size_t>(v.stride())};
-}
 
 // Means over the neighbours along a closed curve: a contour of pixels is a staircase.
 std::vector<Vec2> smoothed(const std::vector<cv::Point>& contour) {

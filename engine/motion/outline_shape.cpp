@@ -7,13 +7,10 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "engine/motion/view_mat.h"
+
 namespace weft {
 namespace {
-
-cv::Mat as_mat(ViewU8x1 v) {
-    return {v.height(), v.width(), CV_8UC1, const_cast<std::uint8_t*>(v.data()),
-            static_cast<std::size_t>(v.stride())};
-}
 
 constexpr float kWidest_px = 24;
 

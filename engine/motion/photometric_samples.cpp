@@ -8,14 +8,10 @@
 
 #include "engine/core/parallel.h"
 #include "engine/motion/cubic_lookup.h"
+#include "engine/motion/view_mat.h"
 
 namespace weft {
 namespace {
-
-cv::Mat as_mat(ViewU8x1 v) {
-    return {v.height(), v.width(), CV_8UC1, const_cast<std::uint8_t*>(v.data()),
-            static_cast<std::size_t>(v.stride())};
-}
 
 // Local means reach this far, px at a width of 854.
 constexpr float kLocal_px = 4;
@@ -23,12 +19,12 @@ constexpr float kLocal_px = 4;
 constexpr float kEdge_px = 3;
 
 // Where a picture is looked up: the first of sixteen pixels, and the fractions.
-struct Cell {
+struct LookupCell {
     const float* first;
     float fx, fy;
 };
 
-std::optional<Cell> cell_at(const RegistrationPicture& picture, Vec2 p) {
+std::optional<LookupCell> cell_at(const RegistrationPicture& picture, Vec2 p) {
     const float gx = p.x - 0.5f - static_cast<float>(picture.area.x0);
     const float gy = p.y - 0.5f - static_cast<float>(picture.area.y0);
     if (!(gx >= 1 && gy >= 1 && gx < static_cast<float>(picture.area.width() - 2) &&
@@ -38,8 +34,8 @@ std::optional<Cell> cell_at(const RegistrationPicture& picture, Vec2 p) {
     const int x = static_cast<int>(gx), y = static_cast<int>(gy);
     if (*picture.inside.pixel(x, y) == 0 || *picture.inside.pixel(x + 1, y + 1) == 0)
         return std::nullopt;
-    return Cell{picture.value.pixel(x - 1, y - 1), gx - static_cast<float>(x),
-                gy - static_cast<float>(y)};
+    return LookupCell{picture.value.pixel(x - 1, y - 1), gx - static_cast<float>(x),
+                      gy - static_cast<float>(y)};
 }
 
 }  // namespace

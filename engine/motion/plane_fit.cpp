@@ -14,11 +14,11 @@ constexpr int kTerms = 8, kRounds = 15;
 constexpr double kLeastScale_px = 0.1;
 
 // To the middle of the points, and to a mean distance of 1 from it.
-struct Normal {
+struct Centred {
     glm::dvec2 middle{0};
     double scale = 1;
 
-    explicit Normal(const std::vector<PlacePair>& pairs, Vec2 PlacePair::*which) {
+    explicit Centred(const std::vector<PlacePair>& pairs, Vec2 PlacePair::*which) {
         const double n = static_cast<double>(pairs.size());
         for (const PlacePair& pair : pairs)
             middle += glm::dvec2(pair.*which) / n;
@@ -41,7 +41,7 @@ glm::dmat3 shifted(glm::dvec2 by) {
 // One weighted solution, in normalised places: what departs from no motion there; what the pairs
 // leave open does not. False if there is none.
 bool solve(const std::vector<PlacePair>& pairs, const std::vector<double>& weights,
-           const Normal& from, const Normal& to, glm::dmat3& out) {
+           const Centred& from, const Centred& to, glm::dmat3& out) {
     // (0.005 / 0.3)²: noise of the places against how much a plane's perspective varies.
     constexpr double kTowardsAffine = 3e-4, kTowardsNone = 1e-6;
     cv::Matx<double, kTerms, kTerms> a;
@@ -76,7 +76,7 @@ Vec2 mapped(const glm::dmat3& plane, Vec2 p) {
 
 glm::dmat3 fit_plane(const std::vector<PlacePair>& pairs) {
     if (pairs.empty()) return glm::dmat3(1);
-    const Normal from(pairs, &PlacePair::from), to(pairs, &PlacePair::to);
+    const Centred from(pairs, &PlacePair::from), to(pairs, &PlacePair::to);
     glm::dmat3 plane = shifted(to.middle - from.middle);
     if (pairs.size() < kTerms) return plane;
     std::vector<double> weights(pairs.size(), 1.0), misses(pairs.size());

@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "engine/motion/view_mat.h"
+
 namespace weft {
 namespace {
 
@@ -369,10 +371,6 @@ LatticeField fit_surface_motion(ViewF2 flow, ViewU8x1 weights, const SurfaceFitO
 }
 
 Matte motion_weights(ViewU8x1 luma, ViewU8x1 visible, ViewU8x1 valid, int border_px) {
-    const auto as_mat = [](ViewU8x1 v) {
-        return cv::Mat(v.height(), v.width(), CV_8UC1, const_cast<std::uint8_t*>(v.data()),
-                       static_cast<std::size_t>(v.stride()));
-    };
     cv::Mat inside = as_mat(visible) >= 128;
     // The frame's border is not the surface's border, so only the matte's own edge is avoided.
     cv::Mat distance, framed;

@@ -6,7 +6,7 @@ namespace weft {
 namespace {
 
 // Beyond the surface's box, for patches at its edge.
-constexpr int kMargin_px = 8;
+constexpr int kBoxMargin_px = 8;
 constexpr std::uint8_t kNothing = 128;  // what a local mean becomes
 
 // A frame's picture in `box`, as 8-bit luma; outside of the surface it shows nothing.
@@ -35,7 +35,7 @@ FlowField estimate_surface_flow(const SurfaceView& cur, const SurfaceView& prev,
     std::fill_n(out.valid.data(), out.valid.size_bytes(), std::uint8_t{0});
     Recti box = cur.picture.area.united(prev.picture.area);
     if (cur.picture.area.empty() || prev.picture.area.empty()) return out;
-    box = box.grown(kMargin_px).intersected(rect_of(frame));
+    box = box.grown(kBoxMargin_px).intersected(rect_of(frame));
     FlowPair found =
         estimate_flows(freed_of_light(cur, box), freed_of_light(prev, box), quality, frame);
     check_consistency(found.b_from_a, found.a_from_b.d);

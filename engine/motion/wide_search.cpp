@@ -12,18 +12,19 @@ namespace weft {
 namespace {
 
 // The anchor where it is expected on the frame: within `area` of it.
-struct Moved {
+struct MovedAnchor {
     RegistrationPicture picture;
     Matte visible;
 };
 
-Moved moved_to(const SurfaceView& anchor, const Recti& area, const LatticeField& expected) {
+MovedAnchor moved_to(const SurfaceView& anchor, const Recti& area, const LatticeField& expected) {
     // Up to the surface's edge, whose pixels registration leaves out.
     RegistrationPicture whole = anchor.picture;
     std::fill_n(whole.inside.data(), whole.inside.size_bytes() / sizeof(float), 1.0f);
     const Size frame = expected.full_size();
-    Moved out{{area, ImageF1(area.width(), area.height()), ImageF1(area.width(), area.height())},
-              Matte(frame)};
+    MovedAnchor out{
+        {area, ImageF1(area.width(), area.height()), ImageF1(area.width(), area.height())},
+        Matte(frame)};
     std::fill_n(out.visible.data(), out.visible.size_bytes(), std::uint8_t{0});
     const ImageF2 way = expected.dense(area);
     for (int y = area.y0; y < area.y1; ++y) {
@@ -97,7 +98,7 @@ WideSearch search_around(const SurfaceView& anchor, const SurfaceView& cur, View
                          const LatticeField& expected, MissedBy missed, FlowQuality quality) {
     if (anchor.picture.area.empty() || cur.picture.area.empty()) return {expected, 0};
     constexpr int kBorder_px = 6;
-    const Moved moved = moved_to(anchor, cur.picture.area, expected);
+    const MovedAnchor moved = moved_to(anchor, cur.picture.area, expected);
     const FlowField misses =
         estimate_surface_flow(cur, {moved.picture, moved.visible}, expected.full_size(), quality);
     const Matte weights = motion_weights(luma, cur.visible, misses.valid, kBorder_px);

@@ -27,10 +27,6 @@ constexpr int kDownscale = 4;  // of the light that edges are compared with
 // Without blur there are no penumbras to be told from it.
 constexpr float kSharp_px = 0.6f;
 
-const RegionPlan& region_of(const ShotPlan& plan, int region) {
-    return plan.regions[static_cast<std::size_t>(region)];
-}
-
 // A region on one frame.
 struct Looked {
     const ShotSource& source;

@@ -22,8 +22,8 @@ int spacing_for(Size plate, Size domain) {
     return static_cast<int>(std::ceil(spacing * wider));
 }
 
-Expected<FormEvidence> evidence_at(const PassContext& context, const AnalysisStore& store,
-                                   int region, int frame) {
+Expected<FormEvidence> form_evidence_at(const PassContext& context, const AnalysisStore& store,
+                                        int region, int frame) {
     WEFT_TRY(extent, extent_matte(context.source, context.plan, store, region, frame));
     WEFT_TRY(holdout, holdout_matte(context.source, context.plan, store, region, frame));
     WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kCoords}));
@@ -59,7 +59,7 @@ Expected<std::vector<FormEvidence>> form_evidence_on(const PassContext& context,
     std::vector<FormEvidence> out;
     for (const int frame : frames) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
-        WEFT_TRY(at, evidence_at(context, store, region, frame));
+        WEFT_TRY(at, form_evidence_at(context, store, region, frame));
         out.push_back(std::move(at));
     }
     return out;

@@ -9,6 +9,10 @@
 
 namespace weft {
 
+/// The weight of places that the reference frame does not show: a frame's coordinates are as good
+/// as its motion was followed; the reference frame's are exact.
+inline constexpr double kOtherFrames = 0.01;
+
 struct FormEvidence {
     Matte visible;
     LatticeField ref_from_cur;

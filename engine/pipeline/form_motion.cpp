@@ -11,6 +11,8 @@
 #include "engine/form/rigid_fit.h"
 #include "engine/form/still_camera.h"
 #include "engine/form/view_camera.h"
+#include "engine/pipeline/form_evidence.h"
+#include "engine/pipeline/plate_views.h"
 
 namespace weft {
 namespace {
@@ -31,7 +33,6 @@ constexpr double kLeastNearness = 0.04;      // of a plane towards its horizon
 // A plane goes on for that share of the least nearness seen: what is further is the horizon, whose
 // areas would outweigh all that is seen.
 constexpr double kFurther = 0.6;
-constexpr double kOtherFrames = 0.01;  // weight of places that the reference frame does not show
 
 FormMap flat_over(Size plate, const FormFinding& finding) {
     return {{}, LatticeField(plate, std::max(plate.width, plate.height)), finding};
@@ -60,10 +61,6 @@ bool well_inside(const Matte& matte, Vec2 place, int margin) {
         for (const int u : {x - margin, x, x + margin})
             if (matte.row(v)[u] != 255) return false;
     return true;
-}
-
-Vec2 centre_of_pixel(int x, int y) {
-    return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
 }
 
 std::vector<FrameMatches> matches_of(const std::vector<FormEvidence>& evidence, Size plate) {

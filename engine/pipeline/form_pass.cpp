@@ -21,9 +21,6 @@
 namespace weft {
 namespace {
 
-// A frame's coordinates are as good as its motion was followed; the reference frame's are exact.
-constexpr double kOtherFrames = 0.01;
-
 std::string text_of(const std::vector<int>& frames) {
     const auto [first, last] = std::minmax_element(frames.begin(), frames.end());
     if (*first == *last) return "frame " + std::to_string(*first);

@@ -30,7 +30,7 @@ struct Evidence {
     ImageF2 ref_from_cur;
 };
 
-Expected<Evidence> evidence_at(const AnalysisStore& store, int region, int frame) {
+Expected<Evidence> light_evidence_at(const AnalysisStore& store, int region, int frame) {
     WEFT_TRY(sample_bytes, store.get({region, frame, AnalysisKind::kLightSample}));
     WEFT_TRY(sample, decode_light_sample(sample_bytes));
     WEFT_TRY(field_bytes, store.get({region, frame, AnalysisKind::kCoords}));
@@ -42,7 +42,7 @@ Expected<Evidence> evidence_at(const AnalysisStore& store, int region, int frame
 Status light_at(const PassContext& context, AnalysisStore& store, int region, int frame,
                 const ClipReflectance& reflectance) {
     if (context.cancel.cancelled()) return cancelled(context.cancel);
-    WEFT_TRY(at, evidence_at(store, region, frame));
+    WEFT_TRY(at, light_evidence_at(store, region, frame));
     const ShadingOptions options = shading_options(context.plan, context.source.size());
     const Shading shading = shading_with(at.sample, reflectance, at.ref_from_cur, options);
     return store.put({region, frame, AnalysisKind::kShading}, encode(shading));
@@ -55,7 +55,7 @@ Status estimate_light(const PassContext& context, int region, FrameSpan span,
     ReflectanceGatherer gatherer(shading_options(context.plan, context.source.size()));
     for (const int frame : context.plan.regions[static_cast<std::size_t>(region)].light_evidence) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
-        WEFT_TRY(at, evidence_at(store, region, frame));
+        WEFT_TRY(at, light_evidence_at(store, region, frame));
         gatherer.add(at.sample, at.ref_from_cur);
     }
     const ClipReflectance reflectance = gatherer.finish();

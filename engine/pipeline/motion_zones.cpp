@@ -13,10 +13,6 @@
 namespace weft {
 namespace {
 
-const RegionPlan& region_of(const ShotPlan& plan, int region) {
-    return plan.regions[static_cast<std::size_t>(region)];
-}
-
 bool has_motion_zones(const RegionPlan& region) {
     return region.temporal == TemporalMode::kLocked && !region.has_uv &&
            std::any_of(region.zones.begin(), region.zones.end(),

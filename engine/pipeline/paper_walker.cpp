@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-constexpr int kLargestPlane = 8192;
+constexpr int kLargestPaper = 8192;
 
 // Bilinear lookup in texels (centres at half); false outside.
 bool lookup(const ImageU8x3& image, Vec2 u, Vec3& out) {
@@ -37,7 +37,7 @@ Expected<FramePlane> frame_plane(const PlanePlacement& placement, Size plate) {
     WEFT_TRY(mapping, texture_mapping(placement));
     const auto [low, high] = mapping.bounds_of(rect_of(plate));
     const Vec2 extent = high - low;
-    if (!(extent.x < kLargestPlane && extent.y < kLargestPlane)) {
+    if (!(extent.x < kLargestPaper && extent.y < kLargestPaper)) {
         return fail(
             ErrorCode::kUsage,
             "The placement needs a texture of more than 8192 texels per side for every frame. "

@@ -4,6 +4,7 @@
 // The plate as the analysis sees it: display-encoded, 8 bit.
 
 #include "engine/color/color_space.h"
+#include "engine/core/geometry.h"
 #include "engine/core/image.h"
 
 namespace weft {
@@ -33,6 +34,10 @@ struct PlateViews {
 [[nodiscard]] Matte without_holdout(const Matte& extent, const Matte& holdout);
 /// Sets `mask` to 0 where `finite` is 0; an empty `finite` changes nothing.
 void drop_nonfinite(Matte& mask, const Matte& finite);
+
+[[nodiscard]] inline Vec2 centre_of_pixel(int x, int y) {
+    return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+}
 
 /// The part inside the box, which must lie inside the matte.
 [[nodiscard]] Matte cropped(const Matte& matte, const Recti& box);

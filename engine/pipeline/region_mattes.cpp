@@ -9,10 +9,6 @@
 namespace weft {
 namespace {
 
-const RegionPlan& region_of(const ShotPlan& plan, int region) {
-    return plan.regions[static_cast<std::size_t>(region)];
-}
-
 Matte either(Matte a, const Matte& b) {
     std::transform(b.data(), b.data() + b.size_bytes(), a.data(), a.data(),
                    [](std::uint8_t x, std::uint8_t y) { return std::max(x, y); });

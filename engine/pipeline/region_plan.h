@@ -257,4 +257,8 @@ struct ShotPlan {
     bool keep_walks = false;             ///< Adds these to them.
 };
 
+[[nodiscard]] inline const RegionPlan& region_of(const ShotPlan& plan, int region) {
+    return plan.regions[static_cast<std::size_t>(region)];
+}
+
 }  // namespace weft

@@ -5,13 +5,6 @@
 #include "engine/core/parallel.h"
 
 namespace weft {
-namespace {
-
-const RegionPlan& region_of(const ShotPlan& plan, int region) {
-    return plan.regions[static_cast<std::size_t>(region)];
-}
-
-}  // namespace
 
 Expected<Matte> ShotSource::zone(int /*region*/, int zone, int frame) const {
     return fail(ErrorCode::kMissingFrames, "Zone " + std::to_string(zone + 1) +

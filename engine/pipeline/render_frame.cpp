@@ -121,10 +121,6 @@ class FrameRenderer {
     bool burnt_out_ = false;
 };
 
-const RegionPlan& region_of(const ShotPlan& plan, int index) {
-    return plan.regions[static_cast<std::size_t>(index)];
-}
-
 // True if a device supports all that a region needs: texture, a gain of light, composite.
 bool fits_device(const RegionPlan& region, const RegionScene& scene) {
     const bool tints = region.cast ? *region.cast > 0 : scene.light_has_colour();

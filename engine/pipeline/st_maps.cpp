@@ -12,16 +12,12 @@
 namespace weft {
 namespace {
 
-constexpr int kRows = 16;
+constexpr int kMapBandRows = 16;
 constexpr int kSteps = 4;  // of Newton's method, from the inverse lattice on
 constexpr float kSettledPx = 1e-3f;
 constexpr float kMissedPx = 0.05f;  // a place that is missed by more is not shown
 
-Vec2 centre_of_pixel(int x, int y) {
-    return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-}
-
-void put(StMap& map, int x, int y, Vec2 place, float visible) {
+void put_place(StMap& map, int x, int y, Vec2 place, float visible) {
     const Size size = map.visible.size();
     float* st = map.st.pixel(x, y);
     st[0] = place.x / static_cast<float>(size.width);
@@ -31,13 +27,13 @@ void put(StMap& map, int x, int y, Vec2 place, float visible) {
 }
 
 void add_warp(StMap& map, const LatticeField& ref_from_cur, const Matte& visible) {
-    parallel_rows(visible.height(), kRows, [&](int y0, int y1) {
+    parallel_rows(visible.height(), kMapBandRows, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < visible.width(); ++x) {
                 if (visible.row(y)[x] == 0) continue;
                 const Vec2 p = centre_of_pixel(x, y);
-                put(map, x, y, p + ref_from_cur.at(p),
-                    static_cast<float>(visible.row(y)[x]) / 255.0f);
+                put_place(map, x, y, p + ref_from_cur.at(p),
+                          static_cast<float>(visible.row(y)[x]) / 255.0f);
             }
         }
     });
@@ -83,14 +79,14 @@ float coverage_at(const Matte& matte, Vec2 place) {
 
 void add_stabilize(StMap& map, const LatticeField& ref_from_cur, const Matte& visible) {
     const LatticeField cur_from_ref = inverse(ref_from_cur);
-    parallel_rows(visible.height(), kRows, [&](int y0, int y1) {
+    parallel_rows(visible.height(), kMapBandRows, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < visible.width(); ++x) {
                 const Vec2 q = centre_of_pixel(x, y);
                 const Root root = root_of(ref_from_cur, q, q + cur_from_ref.at(q));
                 if (!(root.miss <= kMissedPx)) continue;
                 const float share = coverage_at(visible, root.place);
-                if (share > 0) put(map, x, y, root.place, share);
+                if (share > 0) put_place(map, x, y, root.place, share);
             }
         }
     });

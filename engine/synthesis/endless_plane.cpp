@@ -19,10 +19,6 @@ int floor_div(int a, int b) {
     return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
-tl::unexpected<Error> stopped(const CancelToken& cancel) {
-    return fail(static_cast<ErrorCode>(cancel.reason()), "Growing the texture plane was stopped.");
-}
-
 }  // namespace
 
 Expected<std::unique_ptr<EndlessPlane>> EndlessPlane::make(ImageU8x3 sample,
@@ -31,7 +27,7 @@ Expected<std::unique_ptr<EndlessPlane>> EndlessPlane::make(ImageU8x3 sample,
     WEFT_CHECK_OK(check_sample(sample.size(), options.overlap_px));
     try {
         std::unique_ptr<EndlessPlane> plane(new EndlessPlane(std::move(sample), options));
-        if (!plane->grow_strips(cancel)) return stopped(cancel);
+        if (!plane->grow_strips(cancel)) return growth_stopped(cancel);
         return plane;
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::kNoSpace, "Not enough memory for a texture plane.");
@@ -152,7 +148,7 @@ Expected<const EndlessPlane::Part*> EndlessPlane::tile(const Borders& b,
         PlaneStats stats;
         if (!grow_canvas(*atlas_, part_options(canvas.size(), index), {}, canvas, stats, cancel,
                          {})) {
-            return stopped(cancel);
+            return growth_stopped(cancel);
         }
         tile.part =
             std::make_unique<Part>(Part{std::move(canvas.pixels()), std::move(canvas.source())});

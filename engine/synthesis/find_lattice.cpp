@@ -15,8 +15,8 @@ namespace weft {
 namespace {
 
 constexpr double kLeastStep_px = 6;
-constexpr int kBorder = 2;
-constexpr int kLargest = 512;
+constexpr int kPeakBorder = 2;
+constexpr int kLargestSearched = 512;
 constexpr std::size_t kMostPeaks = 24;
 constexpr double kLeastHeight = 0.08;
 constexpr double kLeastMatch = 0.3;  // Of a lattice with two steps.
@@ -36,11 +36,11 @@ std::vector<Vec2i> peaks_of(const SelfCorrelation& c) {
         double height;
     };
     std::vector<Peak> found;
-    for (int dy = 0; dy <= c.reach.y - kBorder; ++dy) {
-        for (int dx = -c.reach.x + kBorder; dx <= c.reach.x - kBorder; ++dx) {
+    for (int dy = 0; dy <= c.reach.y - kPeakBorder; ++dy) {
+        for (int dx = -c.reach.x + kPeakBorder; dx <= c.reach.x - kPeakBorder; ++dx) {
             const Vec2i d{dx, dy};
             if ((dy == 0 && dx <= 0) || glm::length(glm::dvec2(d)) < kLeastStep_px) continue;
-            if (c.at(d) < kLeastHeight || *best_near(c, d, kBorder) != d) continue;
+            if (c.at(d) < kLeastHeight || *best_near(c, d, kPeakBorder) != d) continue;
             // The slope around the origin is not repetition.
             double valley = 1;
             constexpr int kSteps = 12;
@@ -333,7 +333,8 @@ Found best_of(const SelfCorrelation& c) {
 SampleLattice find_lattice(ViewU8x3 sample, const SelfMismatch& self) {
     const SelfCorrelation near = correlation_of(self);
     Found found = best_of(near);
-    const Size s{std::min(sample.width(), kLargest), std::min(sample.height(), kLargest)};
+    const Size s{std::min(sample.width(), kLargestSearched),
+                 std::min(sample.height(), kLargestSearched)};
     if (s.width <= 2 * near.reach.x + 1 && s.height <= 2 * near.reach.y + 1) return found.lattice;
     const int x0 = (sample.width() - s.width) / 2, y0 = (sample.height() - s.height) / 2;
     const ViewU8x3 middle = sample.crop({x0, y0, x0 + s.width, y0 + s.height});

@@ -12,7 +12,6 @@ namespace {
 constexpr double kRounding_px = 0.75;  // No point of the plane is farther from a texel: √½.
 constexpr double kLargestTolerance_px = 2;
 constexpr double kExactStrain = 0.0025;
-constexpr int kLargestSide = 16384;
 
 double to_whole(double v) {
     return v - std::round(v);
@@ -32,7 +31,7 @@ double strain_along(const LatticeWaves& waves, const std::array<glm::dvec2, 2>& 
 
 int whole_side(const SampleLattice& lattice, int axis, int least) {
     const LatticeWaves waves = waves_of(lattice);
-    const int most = std::min(least + least / 8, kLargestSide);
+    const int most = std::min(least + least / 8, kLargestPlaneSide);
     int best = least;
     double best_strain = HUGE_VAL;
     for (int side = least; side <= most; ++side) {

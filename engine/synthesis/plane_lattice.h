@@ -10,6 +10,9 @@
 
 namespace weft {
 
+/// Of a plane, px.
+inline constexpr int kLargestPlaneSide = 16384;
+
 /// A sample's lattice on a plane, with a point at texel (0, 0). On a torus it is strained so that
 /// both sides are whole numbers of periods. Offsets of patches (plane less sample position) lie on
 /// it, rounded to texels.

@@ -38,7 +38,7 @@ struct PairColours {
 };
 enum Picture : std::size_t { kOfP, kOfQ, kOfNew };
 
-float distance(const std::uint8_t* a, const std::uint8_t* b) {
+float pixel_distance(const std::uint8_t* a, const std::uint8_t* b) {
     int sum = 0;
     for (int c = 0; c < 3; ++c)
         sum += (a[c] - b[c]) * (a[c] - b[c]);
@@ -47,8 +47,8 @@ float distance(const std::uint8_t* a, const std::uint8_t* b) {
 
 // The seam cost between two of the pictures, as in fill_seam_costs().
 std::int32_t pair_cost(const PairColours& k, Picture a, Picture b) {
-    const float sum = distance(k.p[a], k.p[b]) + distance(k.q[a], k.q[b]);
-    const float gradient = distance(k.p[a], k.q[a]) + distance(k.p[b], k.q[b]);
+    const float sum = pixel_distance(k.p[a], k.p[b]) + pixel_distance(k.q[a], k.q[b]);
+    const float gradient = pixel_distance(k.p[a], k.q[a]) + pixel_distance(k.p[b], k.q[b]);
     const float v = sum / (gradient + kRefineGradientFloor) * static_cast<float>(kSeamCostScale);
     return static_cast<std::int32_t>(v + 0.5f);
 }

@@ -11,13 +11,13 @@
 namespace weft {
 namespace {
 
-constexpr int kLargest = 768;
-constexpr int kLeastStep = 12;
+constexpr int kLargestMeasured = 768;
+constexpr int kLeastRepeat = 12;
 constexpr int kSourceGrid = 4;  // Every 4th of the sample's pixels in x and y is checked.
 constexpr double kPeriodTolerance_px = 2.5;
 
 Recti middle(Size s) {
-    const int w = std::min(s.width, kLargest), h = std::min(s.height, kLargest);
+    const int w = std::min(s.width, kLargestMeasured), h = std::min(s.height, kLargestMeasured);
     const int x0 = (s.width - w) / 2, y0 = (s.height - h) / 2;
     return {x0, y0, x0 + w, y0 + h};
 }
@@ -81,13 +81,13 @@ Repetition measure(ViewU8x3 picture, const Own& own_step) {
     Repetition out;
     const ViewU8x3 part = picture.crop(middle(picture.size()));
     const Vec2i reach{part.width() / 2, part.height() / 2};
-    if (reach.x < kLeastStep || reach.y < kLeastStep) return out;
+    if (reach.x < kLeastRepeat || reach.y < kLeastRepeat) return out;
     const Image<double, 1> c = autocovariance(part, reach);
     const double variance = c.at(reach.x, 0);
     if (variance < 1e-3) return out;
     for (int dy = 0; dy < reach.y; ++dy) {
         for (int dx = -reach.x + 1; dx < reach.x; ++dx) {
-            if ((dy == 0 && dx <= 0) || std::hypot(dx, dy) < kLeastStep) continue;
+            if ((dy == 0 && dx <= 0) || std::hypot(dx, dy) < kLeastRepeat) continue;
             const double value = c.at(dx + reach.x, dy) / variance;
             const bool own = own_step(Vec2i{dx, dy});
             if (value <= (own ? out.own_period : out.peak)) continue;

@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-double cross(glm::dvec2 a, glm::dvec2 b) {
+double area_between(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
@@ -15,7 +15,7 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
 std::array<glm::dvec2, 2> dual(const std::array<glm::dvec2, 2>& v, int count) {
     if (count == 0) return {};
     if (count == 1) return {v[0] / glm::dot(v[0], v[0]), {}};
-    const double det = cross(v[0], v[1]);
+    const double det = area_between(v[0], v[1]);
     return {glm::dvec2{v[1].y, -v[1].x} / det, glm::dvec2{-v[0].y, v[0].x} / det};
 }
 

@@ -5,9 +5,9 @@
 namespace weft {
 namespace {
 
-constexpr int kLeastOverlap = 12;
 constexpr int kLargestPatch = 200;
-constexpr int kLargestWindow = 488;  // With the slack of the default overlap a transform of 512.
+// With the slack of the default overlap a transform of 512.
+constexpr int kLargestSweepWindow = 488;
 
 struct Room {
     SweepAxis axis;
@@ -17,7 +17,7 @@ struct Room {
 Room room_for(int sample_px, int plane_px, bool torus, int overlap_px) {
     Room room;
     SweepAxis& a = room.axis;
-    a.window = std::min(sample_px, kLargestWindow);
+    a.window = std::min(sample_px, kLargestSweepWindow);
     a.overlap = std::min(overlap_px, sample_px / 2);
     room.patch = std::min(a.window, kLargestPatch);
     if (torus) {

@@ -8,6 +8,9 @@
 
 namespace weft {
 
+/// The least overlap that a plane may ask for, px.
+inline constexpr int kLeastOverlap = 12;
+
 /// A block starts `overlap` before the first unfilled pixel. The sample's window lies on it at t ∈
 /// [lo, hi], so that it overlaps by min_overlap … overlap and fills all but `hi` px of the rest.
 /// All in pixels.

@@ -17,9 +17,7 @@
 namespace weft {
 namespace {
 
-constexpr int kLeastOverlap = 12;
 constexpr std::size_t kMostSamples = 64;
-constexpr int kLargestSide = 16384;
 constexpr float kLargestGuideWeight = 1000.0f;
 
 Status check(const std::vector<ViewU8x3>& samples, const PlaneOptions& o) {
@@ -29,8 +27,8 @@ Status check(const std::vector<ViewU8x3>& samples, const PlaneOptions& o) {
     }
     for (const ViewU8x3& sample : samples)
         WEFT_CHECK_OK(check_sample(sample.size(), o.overlap_px));
-    if (o.size.width < 1 || o.size.height < 1 || o.size.width > kLargestSide ||
-        o.size.height > kLargestSide) {
+    if (o.size.width < 1 || o.size.height < 1 || o.size.width > kLargestPlaneSide ||
+        o.size.height > kLargestPlaneSide) {
         return fail(ErrorCode::kUsage, "The texture plane's size is " + size_text(o.size) +
                                            ". Use 1 to 16384 px on each side.");
     }
@@ -43,10 +41,6 @@ Status check(const std::vector<ViewU8x3>& samples, const PlaneOptions& o) {
         return fail(ErrorCode::kUsage, "The guide's weight must lie between 0 and 1000.");
     }
     return {};
-}
-
-tl::unexpected<Error> stopped(const CancelToken& cancel) {
-    return fail(static_cast<ErrorCode>(cancel.reason()), "Growing the texture plane was stopped.");
 }
 
 // From positions in the atlas to the samples as they were given.
@@ -101,7 +95,7 @@ Expected<TexturePlane> grow(const std::vector<ViewU8x3>& samples, PlaneOptions o
         Canvas canvas(options.size, options.tileable);
         if (!grow_canvas(atlas, options, structure, canvas, stats, cancel, progress) ||
             !amend_canvas(atlas, options, structure, canvas, stats, cancel))
-            return stopped(cancel);
+            return growth_stopped(cancel);
         const PlaneEnergy energy = recount_energy(atlas, canvas.source(), options.tileable);
         stats.seam_energy = energy.energy;
         stats.seam_length_px = energy.length_px;

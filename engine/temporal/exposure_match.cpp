@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 // In correlation. Less may be chance.
-constexpr double kClearly = 0.02;
+constexpr double kClearGain = 0.02;
 
 // The motion of both frames of a comparison, each as the other one shows it.
 struct Motions {
@@ -94,7 +94,7 @@ std::optional<Registered> ExposureMatch::registered(const Anchor& anchor, const 
     const auto here = exposed(cur, motions->of_anchor_here, share);
     Registered alike = register_against(there, *here, false, initial, quality);
     if (agreement(*there.frame, *here, alike.anchor_from_cur) <
-        agreement(*anchor.frame, cur, sharp.anchor_from_cur) + kClearly)
+        agreement(*anchor.frame, cur, sharp.anchor_from_cur) + kClearGain)
         return std::nullopt;
     return alike;
 }
@@ -103,7 +103,7 @@ float ExposureMatch::open_share() const {
     if (learnt_ == 0) return 0;
     const auto best = std::max_element(alike_.begin(), alike_.end()) - alike_.begin();
     const auto k = static_cast<std::size_t>(best);
-    return gains_[k] > kClearly * learnt_ ? kShares[k] : 0;
+    return gains_[k] > kClearGain * learnt_ ? kShares[k] : 0;
 }
 
 }  // namespace weft

@@ -17,7 +17,7 @@ float luma_at(ViewU8x1 luma, Vec2 p) {
     return top + fy * (low - top);
 }
 
-bool inside(ViewU8x1 visible, Vec2 p) {
+bool well_inside(ViewU8x1 visible, Vec2 p) {
     const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
     return rect_of(visible.size()).grown(-2).contains(x, y) && visible.at(x, y) >= 250;
 }
@@ -115,7 +115,7 @@ void ShutterMeter::add(ViewU8x1 luma, ViewU8x1 visible, const LatticeField& prev
         for (int t = 1; t <= lags; ++t) {
             const Vec2 a = place.p + static_cast<float>(t) * place.ahead;
             const Vec2 b = place.p + static_cast<float>(t) * aside;
-            if (!inside(visible, a) || !inside(visible, b)) break;
+            if (!well_inside(visible, a) || !well_inside(visible, b)) break;
             const double da = luma_at(luma, a) - here, db = luma_at(luma, b) - here;
             const auto at = static_cast<std::size_t>(t);
             along[at] += da * da;

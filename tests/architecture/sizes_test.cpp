@@ -21,12 +21,12 @@ struct LongFunction {
     std::string_view path, name;
     int at_most = 0;  ///< Allowed number of lines.
 };
-struct Exception {
+struct SizeException {
     std::string_view why;
     std::vector<LongFunction> functions;
 };
 
-const std::vector<Exception> kLongFunctions{
+const std::vector<SizeException> kLongFunctions{
     {"A table: one entry after the other, nothing nested.",
      {{"app/cli/synth_command_line.cpp", "add_synth", 95},
       {"app/project/project_parameters.cpp", "make_project_table", 125},
@@ -120,7 +120,7 @@ const std::vector<LongFile> kLongFiles{
 };
 
 const LongFunction* exception_for(std::string_view path, std::string_view name) {
-    for (const Exception& reason : kLongFunctions)
+    for (const SizeException& reason : kLongFunctions)
         for (const LongFunction& f : reason.functions)
             if (f.path == path && f.name == name) return &f;
     return nullptr;
@@ -144,7 +144,7 @@ TEST(Sizes, FunctionsOverSixtyLinesHaveAReason) {
             << place.first << ": " << place.second
             << ": split it, or give a reason in sizes_test.cpp";
     }
-    for (const Exception& reason : kLongFunctions)
+    for (const SizeException& reason : kLongFunctions)
         for (const LongFunction& f : reason.functions) {
             const auto found = longest.find({std::string(f.path), std::string(f.name)});
             EXPECT_TRUE(found != longest.end() && found->second > kFunctionLines)

@@ -17,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Exception {
+struct AllowedCall {
     std::string path, call, reason;
 };
 
-const std::vector<Exception> kAllowed{
+const std::vector<AllowedCall> kAllowedCalls{
     {"engine/media/atomic_file.cpp", "open for writing", "the one door"},
     {"engine/media/atomic_file.cpp", "rename", "the one door"},
     {"engine/media/atomic_file.cpp", "link", "the one door, on disks without RENAME_NOREPLACE"},
@@ -78,7 +78,7 @@ const std::vector<Pattern>& patterns() {
 }
 
 // Removes comments, so that text about a call is not taken for a call.
-std::string code_of(const std::string& text) {
+std::string without_line_comments(const std::string& text) {
     std::string out;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
@@ -88,7 +88,7 @@ std::string code_of(const std::string& text) {
 
 std::vector<std::string> calls_in(const std::string& text) {
     std::vector<std::string> found;
-    const std::string code = code_of(text);
+    const std::string code = without_line_comments(text);
     const auto has = [&](const std::string& word) { return code.find(word) != std::string::npos; };
     for (const Pattern& pattern : patterns()) {
         if (std::any_of(pattern.words.begin(), pattern.words.end(), has) &&
@@ -112,9 +112,9 @@ TEST(Writers, NoSourceWritesAFileByItself) {
             const std::string path = entry.path().lexically_relative(root).generic_string();
             for (const std::string& call : calls_in(text)) {
                 const auto at = std::find_if(
-                    kAllowed.begin(), kAllowed.end(),
-                    [&](const Exception& e) { return e.path == path && e.call == call; });
-                EXPECT_TRUE(at != kAllowed.end())
+                    kAllowedCalls.begin(), kAllowedCalls.end(),
+                    [&](const AllowedCall& e) { return e.path == path && e.call == call; });
+                EXPECT_TRUE(at != kAllowedCalls.end())
                     << path << " writes by itself (" << call
                     << "). Use engine/media/atomic_file.h, or give the reason here.";
                 used.push_back(path + ": " + call);
@@ -122,7 +122,7 @@ TEST(Writers, NoSourceWritesAFileByItself) {
         }
     }
     EXPECT_GT(files, 200) << "the source tree was not found in " << root;
-    for (const Exception& e : kAllowed)
+    for (const AllowedCall& e : kAllowedCalls)
         EXPECT_THAT(used, ::testing::Contains(e.path + ": " + e.call)) << "is not needed any more";
 }
 

@@ -9,7 +9,7 @@ namespace weft {
 namespace {
 
 // Squares of two greys whose edges are ideal steps under a Gaussian.
-ImageF3 squares(float sigma_px) {
+ImageF3 blurred_squares(float sigma_px) {
     ImageF3 out(240, 160);
     const auto edge = [&](float v) {  // +1 and −1 in turn, 20 px each
         const float phase = v / 20.0f;
@@ -31,7 +31,7 @@ ImageF3 squares(float sigma_px) {
 
 TEST(Focus, TheBlurOfEdgesIsFound) {
     for (const float sigma : {0.8f, 1.2f, 2.0f, 3.0f}) {
-        const ImageF3 picture = squares(sigma);
+        const ImageF3 picture = blurred_squares(sigma);
         EXPECT_NEAR(edge_blur_px(picture, Matte(picture.size(), 255)), sigma, 0.2f * sigma)
             << sigma;
     }
@@ -54,22 +54,22 @@ TEST(Focus, ThinBarsAreAsSoftAsWideOnes) {
 }
 
 TEST(Focus, ASharpTextureGetsThePlatesEdgeWidth) {
-    ImageF3 texture = squares(0.6f);
+    ImageF3 texture = blurred_squares(0.6f);
     const Matte all(texture.size(), 255);
-    const float plate_px = edge_blur_px(squares(2.0f), all);
+    const float plate_px = edge_blur_px(blurred_squares(2.0f), all);
     blur_inside(texture, all, blur_between(edge_blur_px(texture, all), plate_px));
     EXPECT_NEAR(edge_blur_px(texture, all), plate_px, 0.2f * plate_px);
 }
 
 TEST(Focus, AStrongContrastIsBlurredAsFarAsTheFaintOnesOfThePlate) {
     // Black and white under a blur of light: not as wide as greys under the same.
-    ImageF3 texture = squares(0.3f);
+    ImageF3 texture = blurred_squares(0.3f);
     for (int y = 0; y < texture.height(); ++y) {
         for (int i = 0; i < 3 * texture.width(); ++i)
             texture.row(y)[i] = texture.row(y)[i] > 0.25f ? 0.9f : 0.001f;
     }
     const Matte all(texture.size(), 255);
-    const float plate_px = edge_blur_px(squares(1.5f), all);
+    const float plate_px = edge_blur_px(blurred_squares(1.5f), all);
     const float blur_px = blur_to_match(texture, all, edge_blur_px(texture, all), plate_px);
     blur_inside(texture, all, blur_px);
     EXPECT_NEAR(edge_blur_px(texture, all), plate_px, 0.1f * plate_px);
@@ -99,7 +99,7 @@ TEST(Focus, WhatLiesOutsideOfTheMatteDoesNotEnter) {
 }
 
 TEST(Focus, OfAPictureItsEdgesAndTheStrongOnesAreFoundAtOnce) {
-    const ImageF3 picture = squares(1.3f);
+    const ImageF3 picture = blurred_squares(1.3f);
     const Matte all(picture.size(), 255);
     for (const float least : {0.005f, 0.03f, 0.2f}) {
         const PictureEdges found = picture_edges(picture, all, least);

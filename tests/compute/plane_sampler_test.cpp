@@ -14,7 +14,7 @@ namespace {
 
 using Map = std::function<Vec2(Vec2)>;  // plate pixel → texel
 
-ImageF3 noise(Size size) {
+ImageF3 plane_noise(Size size) {
     Rng rng(9);
     ImageF3 out(size);
     for (int y = 0; y < size.height; ++y) {
@@ -26,7 +26,7 @@ ImageF3 noise(Size size) {
 
 // Noise without the finest detail, like a photograph: every pixel the mean of 3 × 3.
 ImageF3 soft_noise(Size size) {
-    const ImageF3 raw = noise(size);
+    const ImageF3 raw = plane_noise(size);
     ImageF3 out(size);
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
@@ -179,7 +179,7 @@ TEST(PlaneSampler, IntegratesThePixelsSquare) {
 TEST(PlaneSampler, KeepsThePicturesSharpness) {
     // White noise at the identity: the contrast that the cubics in use integrate to, Catmull–Rom
     // (1) and OpenCV's (about 1.15), not that of a blur.
-    const ImageF3 picture = noise(kPlane);
+    const ImageF3 picture = plane_noise(kPlane);
     const PlanePyramid plane(picture.view(), WrapMode::kRepeat);
     const Map identity = [](Vec2 p) { return p; };
     const double right = moments(integrated(picture, kOut, identity, WrapMode::kRepeat)).variance;
@@ -210,7 +210,7 @@ TEST(PlaneSampler, RepeatsWithThePlanesPeriodFarAway) {
 
 TEST(PlaneSampler, MinifiesWithoutAlias) {
     // 8 : 1 of white noise: the mean of 64 independent texels.
-    const PlanePyramid plane(noise({512, 384}).view(), WrapMode::kRepeat);
+    const PlanePyramid plane(plane_noise({512, 384}).view(), WrapMode::kRepeat);
     for (const SampleQuality quality : {SampleQuality::kDraft, SampleQuality::kFinal}) {
         const Moments out =
             moments(sampled(plane, coords_of({64, 48}, [](Vec2 p) { return 8.0f * p; }), quality));
@@ -307,7 +307,7 @@ TEST(PlaneSampler, TakesTheSmallestPlanesAndPictures) {
 }
 
 TEST(PlaneSampler, DependsNeitherOnThreadsNorOnTheBand) {
-    const PlanePyramid plane(noise(kPlane).view(), WrapMode::kRepeat);
+    const PlanePyramid plane(plane_noise(kPlane).view(), WrapMode::kRepeat);
     const ImageF2 uv =
         coords_of({70, 90}, [](Vec2 p) { return Vec2(1.1f * p.x + 0.3f * p.y, 0.9f * p.y); });
     set_thread_count(1);

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/warp_net.h"
+#include "tests/core/warp_box.h"
 
 namespace weft {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 using glm::dvec2;
 using ::testing::HasSubstr;
 
-const Quad<double> kBox{dvec2(100, 50), dvec2(400, 50), dvec2(400, 250), dvec2(100, 250)};
 const Quad<double> kDeep{dvec2(100, 50), dvec2(400, 90), dvec2(380, 200), dvec2(90, 260)};
 
 GridWarp bent(const Quad<double>& corners = kBox, int columns = 3, int rows = 2) {

@@ -8,13 +8,12 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/texture_mapping.h"
+#include "tests/core/warp_box.h"
 
 namespace weft {
 namespace {
 
 using glm::dvec2;
-
-const Quad<double> kBox{dvec2(100, 50), dvec2(400, 50), dvec2(400, 250), dvec2(100, 250)};
 
 GridWarp strong(double falloff_px) {
     GridWarp warp = grid_over(kBox, 3, 2);

@@ -5,15 +5,16 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/core/warp_box.h"
+
 namespace weft {
 namespace {
 
 using glm::dvec2;
 
-const Quad<double> kBox{dvec2(100, 50), dvec2(400, 50), dvec2(400, 250), dvec2(100, 250)};
-const Quad<double> kDeep{dvec2(100, 50), dvec2(400, 110), dvec2(380, 180), dvec2(90, 260)};
+const Quad<double> kDeeper{dvec2(100, 50), dvec2(400, 110), dvec2(380, 180), dvec2(90, 260)};
 
-GridWarp bent(const Quad<double>& corners, double falloff_px) {
+GridWarp bent_with_handles(const Quad<double>& corners, double falloff_px) {
     GridWarp warp = grid_over(corners, 3, 2);
     for (std::size_t k = 0; k < warp.points.size(); ++k)
         warp.points[k].at += dvec2(static_cast<double>(k * 7 % 5) - 2, k * 5 % 7) * 1.5;
@@ -24,7 +25,7 @@ GridWarp bent(const Quad<double>& corners, double falloff_px) {
 }
 
 TEST(WarpNet, AtRestNothingMoves) {
-    for (const auto& corners : {kBox, kDeep}) {
+    for (const auto& corners : {kBox, kDeeper}) {
         const GridWarp warp = grid_over(corners, 3, 4);
         const WarpNet net(warp, warp.points);
         for (const dvec2 at : {dvec2(0, 0), dvec2(123, 77), dvec2(250, 150), dvec2(900, -500)}) {
@@ -35,7 +36,7 @@ TEST(WarpNet, AtRestNothingMoves) {
 }
 
 TEST(WarpNet, PointsComeToLieWhereTheyArePut) {
-    const GridWarp warp = bent(kDeep, 0), rest = grid_over(kDeep, 3, 2);
+    const GridWarp warp = bent_with_handles(kDeeper, 0), rest = grid_over(kDeeper, 3, 2);
     const WarpNet net(warp, warp.points);
     for (std::size_t k = 0; k < warp.points.size(); ++k)
         EXPECT_LT(glm::distance(net.moved(rest.points[k].at).at, warp.points[k].at), 1e-9) << k;
@@ -50,7 +51,7 @@ TEST(WarpNet, OnePatchWithOneCornerMovedIsBilinear) {
 }
 
 TEST(WarpNet, HandlesAreTangentsOfTheEdges) {
-    const GridWarp warp = bent(kBox, 0);
+    const GridWarp warp = bent_with_handles(kBox, 0);
     const WarpNet net(warp, warp.points);
     // Three times the handle is the slope per column.
     const auto at = net.on_grid({1, 1});
@@ -61,8 +62,8 @@ TEST(WarpNet, HandlesAreTangentsOfTheEdges) {
 // Differences across every line of the grid, the border, and the end of the fall-off.
 TEST(WarpNet, IsDifferentiableEverywhereAndSaysItsDerivative) {
     for (const double falloff : {0.0, 60.0}) {
-        for (const auto& corners : {kBox, kDeep}) {
-            const GridWarp warp = bent(corners, falloff);
+        for (const auto& corners : {kBox, kDeeper}) {
+            const GridWarp warp = bent_with_handles(corners, falloff);
             const WarpNet net(warp, warp.points);
             double most = 0;
             for (double y = -60; y < 380; y += 3.7) {
@@ -84,18 +85,18 @@ TEST(WarpNet, IsDifferentiableEverywhereAndSaysItsDerivative) {
 }
 
 TEST(WarpNet, FallOffEndsTheWarpAndOtherwiseItGoesOn) {
-    const GridWarp warp = bent(kBox, 60);
+    const GridWarp warp = bent_with_handles(kBox, 60);
     const WarpNet fading(warp, warp.points);
     EXPECT_EQ(fading.moved({461, 150}).at, dvec2(461, 150));
     EXPECT_GT(glm::distance(fading.moved({420, 150}).at, dvec2(420, 150)), 1);
-    const GridWarp on = bent(kBox, 0);
+    const GridWarp on = bent_with_handles(kBox, 0);
     const WarpNet going(on, on.points);
     EXPECT_GT(glm::distance(going.moved({1400, 150}).at, dvec2(1400, 150)), 1);
     EXPECT_LT(glm::distance(going.moved({1400, 150}).at, dvec2(1400, 150)), 60);
 }
 
 TEST(WarpNet, StaysFiniteBeyondTheHorizonOfItsPerspective) {
-    const GridWarp warp = bent(kDeep, 0);
+    const GridWarp warp = bent_with_handles(kDeeper, 0);
     const WarpNet net(warp, warp.points);
     for (double x = 400; x < 20000; x *= 1.03) {
         const auto at = net.moved({x, 145});

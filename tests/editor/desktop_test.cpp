@@ -103,7 +103,14 @@ class SmallScreen : public Desktop {
 TEST_F(SmallScreen, TheWindowIsNotLargerThanItIs) {
     const pid_t pid = start(sandbox_, {"edit"}, display_);
     const bool came = wait_for_window();
-    const std::string size = answer("search --name '^Weft$' getwindowgeometry");
+    // The window comes before its size has been set.
+    std::string size;
+    (void)wait_until(
+        [&] {
+            size = answer("search --name '^Weft$' getwindowgeometry");
+            return size.find("Geometry: 1280x720") != std::string::npos;
+        },
+        10);
     ::kill(pid, SIGKILL);
     const Finished done = finish(sandbox_, pid);
     if (!came) GTEST_SKIP() << "No window came: " << done.errors;

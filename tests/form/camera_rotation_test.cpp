@@ -9,7 +9,7 @@ namespace weft {
 namespace {
 
 constexpr Size kPlate{160, 96};
-constexpr double kFov_deg = 48.5;
+constexpr double kSceneFov_deg = 48.5;
 
 // A camera at `eye` that looks at `target`, as it shows places of a world with z upwards.
 struct Scene {
@@ -26,7 +26,7 @@ struct Scene {
     // What `depth(x, y)` along each pixel's axis shows.
     template <class Depth>
     [[nodiscard]] ImageF3 places(const Depth& depth) const {
-        const ViewCamera camera = camera_with(kFov_deg, kPlate);
+        const ViewCamera camera = camera_with(kSceneFov_deg, kPlate);
         ImageF3 out(kPlate);
         for (int y = 0; y < kPlate.height; ++y) {
             for (int x = 0; x < kPlate.width; ++x) {
@@ -43,7 +43,7 @@ struct Scene {
 };
 
 void expect_rotation(const ImageF3& places, const Scene& scene) {
-    const auto found = camera_rotation(places, camera_with(kFov_deg, kPlate));
+    const auto found = camera_rotation(places, camera_with(kSceneFov_deg, kPlate));
     ASSERT_TRUE(found);
     for (std::size_t k = 0; k < 9; ++k)
         EXPECT_NEAR((*found)[k], scene.rotation()[k], 1e-3) << k;
@@ -68,7 +68,7 @@ TEST(CameraRotation, OfPlacesOnOnePlane) {
 }
 
 TEST(CameraRotation, IsUnknownWherePlacesDoNotFit) {
-    const ViewCamera camera = camera_with(kFov_deg, kPlate);
+    const ViewCamera camera = camera_with(kSceneFov_deg, kPlate);
     const Scene scene({1, -7, 2}, {0, 0, 0.5});
     const ImageF3 places = scene.places(
         [](const glm::dvec3&, int x, int y) { return 6 + std::sin(0.1 * x) + std::cos(0.2 * y); });

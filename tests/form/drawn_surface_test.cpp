@@ -50,7 +50,7 @@ FormGuide turned_quad() {
             numbers({corner(-0.5, 0.6), corner(0.5, 0.6), corner(0.5, -0.6), corner(-0.5, -0.6)})};
 }
 
-Distortion laid(const DrawnSurface& drawn, const Surface& truth) {
+Distortion laid_distortion(const DrawnSurface& drawn, const Surface& truth) {
     MetricField field(kSize, kSpacing);
     for (int y = 0; y < kSize.height; y += 2) {
         for (int x = 0; x < kSize.width; x += 2) {
@@ -95,7 +95,7 @@ TEST(DrawnSurface, AQuadTellsThePlaneAndTheFieldOfView) {
     EXPECT_NEAR(plane->tilt_deg, kFloorTilt_deg, 2.5);
     EXPECT_NEAR(plane->fov_deg, kFov_deg, 4);
     EXPECT_LT(plane->tilt_error_deg, 5);
-    const Distortion d = laid(*plane, seen(floor_below));
+    const Distortion d = laid_distortion(*plane, seen(floor_below));
     EXPECT_LT(d.stretch_median, 1.06);
     EXPECT_LT(d.stretch_p90, 1.20);
     EXPECT_FALSE(d.flipped);
@@ -107,7 +107,7 @@ TEST(DrawnSurface, TheErrorCoversWhatAQuadDoesNotTell) {
     ASSERT_TRUE(plane);
     EXPECT_GT(plane->tilt_error_deg, 4);
     EXPECT_LT(std::abs(plane->tilt_deg - kFloorTilt_deg), plane->tilt_error_deg);
-    EXPECT_LT(laid(*plane, seen(floor_below)).stretch_p90, 1.20);
+    EXPECT_LT(laid_distortion(*plane, seen(floor_below)).stretch_p90, 1.20);
 }
 
 TEST(DrawnSurface, AKnownFieldOfViewGivesTheTiltItself) {
@@ -147,7 +147,7 @@ TEST(DrawnSurface, TwoStrokesThatRunAwayFromBelowAreAFloor) {
     const auto plane = drawn_plane({{FormGuideKind::kParallel, away}}, {kSize, kFov_deg});
     ASSERT_TRUE(plane);
     EXPECT_NEAR(plane->tilt_deg, kFloorTilt_deg, 2);
-    EXPECT_LT(laid(*plane, seen(floor_below)).stretch_p90, 1.08);
+    EXPECT_LT(laid_distortion(*plane, seen(floor_below)).stretch_p90, 1.08);
 }
 
 TEST(DrawnSurface, StrokesThatCrossAreRefused) {
@@ -164,7 +164,7 @@ TEST(DrawnSurface, ACylinderUnrolls) {
         const FormGuide guide = round_over(FormGuideKind::kCylinder, truth.matte, 20, 219);
         const auto drawn = drawn_surface(guide, {kSize, {}});
         ASSERT_TRUE(drawn);
-        const Distortion d = laid(*drawn, truth);
+        const Distortion d = laid_distortion(*drawn, truth);
         EXPECT_LT(d.stretch_median, 1.06) << leaning;
         EXPECT_LT(d.stretch_p90, 1.20) << leaning;
         EXPECT_LT(d.area_p90, 0.12) << leaning;
@@ -204,7 +204,7 @@ TEST(DrawnSurface, AConeUnrolls) {
         drawn_surface(round_over(FormGuideKind::kCone, truth.matte, 20, 219), {kSize, kFov_deg});
     ASSERT_TRUE(drawn);
     EXPECT_TRUE(std::holds_alternative<DrawnCone>(drawn->body));
-    const Distortion d = laid(*drawn, truth);
+    const Distortion d = laid_distortion(*drawn, truth);
     EXPECT_LT(d.stretch_median, 1.06);
     EXPECT_LT(d.stretch_p90, 1.20);
     EXPECT_FALSE(d.flipped);
@@ -215,7 +215,7 @@ TEST(DrawnSurface, ABallIsSpreadEvenly) {
     const auto [radius, middle] = width_on(truth.matte, 120);
     const auto drawn = drawn_surface({FormGuideKind::kBall, {middle, 120, radius}}, {kSize, {}});
     ASSERT_TRUE(drawn);
-    const Distortion d = laid(*drawn, truth);
+    const Distortion d = laid_distortion(*drawn, truth);
     EXPECT_LT(d.stretch_median, 1.14);
     EXPECT_LT(d.stretch_p90, 1.35);
     EXPECT_FALSE(d.flipped);

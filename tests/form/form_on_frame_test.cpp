@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-const double kFov_deg = 2 * std::atan(160.0 / kFocal_px) * 180 / 3.14159265358979;
+const double kFullFov_deg = 2 * std::atan(160.0 / kFocal_px) * 180 / 3.14159265358979;
 
 float ball(Vec3 r) {
     return sphere(r, {0.1f, 0, 4}, 1, {1, 1, 1});
@@ -29,7 +29,7 @@ FormMap form_of(const Surface& surface) {
     const MetricField field = measured(surface);
     FormMap out{{}, still()};
     out.finding.source = FormFinding::Source::kPass;
-    add_relief(out, field, kFov_deg, kSize, false);
+    add_relief(out, field, kFullFov_deg, kSize, false);
     return out;
 }
 
@@ -59,8 +59,8 @@ TEST(FormRelief, DepthFollowsFromTheMetricInThePassesUnit) {
 }
 
 TEST(FormRelief, TheFieldOfViewIsFoundWhereTheSurfaceTells) {
-    EXPECT_NEAR(fov_of_metric(measured(seen(floor_below)), kSize), kFov_deg, 3);
-    EXPECT_NEAR(fov_of_metric(measured(seen(ball)), kSize), kFov_deg, 6);
+    EXPECT_NEAR(fov_of_metric(measured(seen(floor_below)), kSize), kFullFov_deg, 3);
+    EXPECT_NEAR(fov_of_metric(measured(seen(ball)), kSize), kFullFov_deg, 6);
 }
 
 // A camera that has moved by `shift` and turned by `turn` about the upright axis.

@@ -39,7 +39,7 @@ ImageF3 normals_of(const Surface& surface) {
     return out;
 }
 
-LatticeField laid(const Surface& surface) {
+LatticeField laid_by_normals(const Surface& surface) {
     MetricField field(kSize, kSpacing);
     add_normals(field, normals_of(surface), surface.matte, kCamera, still());
     EXPECT_TRUE(field.finish());
@@ -48,7 +48,7 @@ LatticeField laid(const Surface& surface) {
 
 TEST(NormalMetric, AFloorLiesInPerspective) {
     const Surface floor = seen(floor_below);
-    const Distortion after = distortion(floor, laid(floor));
+    const Distortion after = distortion(floor, laid_by_normals(floor));
     EXPECT_LT(after.stretch_median, 1.03);
     EXPECT_LT(after.stretch_p90, 1.08);
     EXPECT_LT(after.area_p90, 0.06);
@@ -57,7 +57,7 @@ TEST(NormalMetric, AFloorLiesInPerspective) {
 
 TEST(NormalMetric, AColumnIsUnrolled) {
     const Surface column = seen([](Vec3 r) { return sphere(r, {0, 0, 4}, 1, {1, 0, 1}); });
-    const Distortion after = distortion(column, laid(column));
+    const Distortion after = distortion(column, laid_by_normals(column));
     EXPECT_LT(after.stretch_median, 1.03);
     EXPECT_LT(after.stretch_p90, 1.08);
     EXPECT_LT(after.area_p90, 0.06);
@@ -66,7 +66,7 @@ TEST(NormalMetric, AColumnIsUnrolled) {
 
 TEST(NormalMetric, ABallIsSpreadEvenly) {
     const Surface ball = seen([](Vec3 r) { return sphere(r, {0, 0, 4}, 1.2f, {1, 1, 1}); });
-    const Distortion after = distortion(ball, laid(ball));
+    const Distortion after = distortion(ball, laid_by_normals(ball));
     EXPECT_LT(after.stretch_median, 1.12);
     EXPECT_LT(after.stretch_p90, 1.30);
     EXPECT_LT(after.area_p90, 0.20);
@@ -78,7 +78,7 @@ TEST(NormalMetric, BothSidesOfWhatStandsInFrontAreAsLarge) {
     Surface floor = seen(floor_below);
     for (int y = 0; y < kSize.height; ++y)
         std::fill_n(floor.matte.row(y) + 200, 40, 0);
-    const Distortion after = distortion(floor, laid(floor));
+    const Distortion after = distortion(floor, laid_by_normals(floor));
     EXPECT_LT(after.stretch_p90, 1.08);
     EXPECT_LT(after.area_p90, 0.06);
 }

@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kPlate{200, 120};
+constexpr Size kTrackPlate{200, 120};
 
 std::vector<Vec2> places() {
     std::vector<Vec2> out;
@@ -22,8 +22,8 @@ constexpr Quad<double> kFloor{{{60, 34}, {140, 30}, {170, 100}, {30, 96}}};
 
 TEST(PlanarTracker, FindsAPlanesMotion) {
     PlanarTracker tracker(places());
-    ASSERT_TRUE(tracker.add(1, plane_motion(kBox, kBox, kPlate, 8)));
-    ASSERT_TRUE(tracker.add(2, plane_motion(kBox, kFloor, kPlate, 8)));
+    ASSERT_TRUE(tracker.add(1, plane_motion(kBox, kBox, kTrackPlate, 8)));
+    ASSERT_TRUE(tracker.add(2, plane_motion(kBox, kFloor, kTrackPlate, 8)));
     for (std::size_t k = 0; k < 4; ++k) {
         EXPECT_LT(glm::distance(tracker.track().at(1)[k], kBox[k]), 0.05);
         EXPECT_LT(glm::distance(tracker.track().at(2)[k], kFloor[k]), 0.3);
@@ -32,7 +32,7 @@ TEST(PlanarTracker, FindsAPlanesMotion) {
 
 // A corner that something else moved does not bend the plane.
 TEST(PlanarTracker, LeavesOutWhatMovesOtherwise) {
-    LatticeField motion = plane_motion(kBox, kFloor, kPlate, 8);
+    LatticeField motion = plane_motion(kBox, kFloor, kTrackPlate, 8);
     for (int j = 0; j < motion.nodes().height(); ++j)
         for (int i = 0; i < motion.nodes().width(); ++i) {
             const Vec2 at = motion.node_position(i, j);
@@ -46,10 +46,10 @@ TEST(PlanarTracker, LeavesOutWhatMovesOtherwise) {
 
 TEST(PlanarTracker, RefusesWhatIsNoPlane) {
     PlanarTracker few({{10, 10}, {20, 10}, {20, 20}});
-    const Status small = few.add(1, LatticeField(kPlate, 8));
+    const Status small = few.add(1, LatticeField(kTrackPlate, 8));
     ASSERT_FALSE(small);
     EXPECT_NE(small.error().message.find("too small"), std::string::npos);
-    LatticeField folded(kPlate, 8);
+    LatticeField folded(kTrackPlate, 8);
     for (int j = 0; j < folded.nodes().height(); ++j)
         for (int i = 0; i < folded.nodes().width(); ++i) {
             const Vec2 at = folded.node_position(i, j);

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-FormMap laid(const Surface& surface, FormFinding::Source source, bool plane) {
+FormMap laid_form(const Surface& surface, FormFinding::Source source, bool plane) {
     MetricField field(kSize, kSpacing);
     add_positions(field, surface.place, surface.matte, still(), 1);
     EXPECT_TRUE(field.finish());
@@ -22,7 +22,7 @@ FormMap laid(const Surface& surface, FormFinding::Source source, bool plane) {
     return out;
 }
 
-Vec3 on_floor(Vec2 at) {
+Vec3 floor_seen_at(Vec2 at) {
     const Vec3 r((at.x - 160) / kFocal_px, (at.y - 120) / kFocal_px, 1);
     return floor_below(r) * r;
 }
@@ -30,7 +30,7 @@ Vec3 on_floor(Vec2 at) {
 TEST(PlaneCorners, AreARectangleOnTheFloorInsideOfTheBox) {
     const Surface floor = seen(floor_below);
     const auto corners =
-        plane_corners(laid(floor, FormFinding::Source::kMotion, true), floor.matte);
+        plane_corners(laid_form(floor, FormFinding::Source::kMotion, true), floor.matte);
     ASSERT_TRUE(corners);
     for (const Vec2 corner : *corners) {
         EXPECT_GE(corner.x, 0);
@@ -39,8 +39,8 @@ TEST(PlaneCorners, AreARectangleOnTheFloorInsideOfTheBox) {
         EXPECT_GT(corner.y, 40) << "below the horizon";
     }
     for (std::size_t k = 0; k < 4; ++k) {
-        const Vec3 a = on_floor((*corners)[(k + 1) % 4]) - on_floor((*corners)[k]);
-        const Vec3 b = on_floor((*corners)[(k + 3) % 4]) - on_floor((*corners)[k]);
+        const Vec3 a = floor_seen_at((*corners)[(k + 1) % 4]) - floor_seen_at((*corners)[k]);
+        const Vec3 b = floor_seen_at((*corners)[(k + 3) % 4]) - floor_seen_at((*corners)[k]);
         const auto dot = [](Vec3 u, Vec3 v) { return u.x * v.x + u.y * v.y + u.z * v.z; };
         EXPECT_NEAR(dot(a, b) / std::sqrt(dot(a, a) * dot(b, b)), 0, 0.05) << "a right angle";
     }
@@ -50,16 +50,16 @@ TEST(PlaneCorners, AreARectangleOnTheFloorInsideOfTheBox) {
 
 TEST(PlaneCorners, APassSaysItselfWhetherItShowsAPlane) {
     const Surface floor = seen(floor_below);
-    EXPECT_TRUE(plane_corners(laid(floor, FormFinding::Source::kPass, false), floor.matte));
+    EXPECT_TRUE(plane_corners(laid_form(floor, FormFinding::Source::kPass, false), floor.matte));
     const Surface ball = seen([](Vec3 r) { return sphere(r, {0, 0, 4}, 1.1f, {1, 1, 1}); });
-    EXPECT_FALSE(plane_corners(laid(ball, FormFinding::Source::kPass, false), ball.matte));
+    EXPECT_FALSE(plane_corners(laid_form(ball, FormFinding::Source::kPass, false), ball.matte));
 }
 
 TEST(PlaneCorners, WhatIsNoPlaneHasNone) {
     const Surface floor = seen(floor_below);
-    EXPECT_FALSE(plane_corners(laid(floor, FormFinding::Source::kNone, true), floor.matte));
-    EXPECT_FALSE(plane_corners(laid(floor, FormFinding::Source::kShape, false), floor.matte));
-    EXPECT_FALSE(plane_corners(laid(floor, FormFinding::Source::kMotion, true), Matte(kSize)));
+    EXPECT_FALSE(plane_corners(laid_form(floor, FormFinding::Source::kNone, true), floor.matte));
+    EXPECT_FALSE(plane_corners(laid_form(floor, FormFinding::Source::kShape, false), floor.matte));
+    EXPECT_FALSE(plane_corners(laid_form(floor, FormFinding::Source::kMotion, true), Matte(kSize)));
 }
 
 }  // namespace

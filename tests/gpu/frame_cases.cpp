@@ -14,7 +14,7 @@
 namespace weft::test {
 namespace {
 
-ImageF3 noise(Size size, std::uint64_t seed, float highest) {
+ImageF3 linear_noise(Size size, std::uint64_t seed, float highest) {
     Rng rng(seed);
     ImageF3 out(size);
     for (int k = 0; k < 3 * size.width * size.height; ++k)
@@ -57,7 +57,7 @@ ImageF1 light(Size size, std::uint64_t seed, float highest) {
 
 FrameLayer layer(Size box, WrapMode wrap, const std::function<Vec2(Vec2)>& map) {
     FrameLayer l;
-    l.plane = PlanePyramid(noise({75, 61}, 5, 1.0f), wrap);
+    l.plane = PlanePyramid(linear_noise({75, 61}, 5, 1.0f), wrap);
     l.coords = mapped(box, map);
     l.matte = disc(box, 0.45f * static_cast<float>(std::min(box.width, box.height)));
     return l;
@@ -94,7 +94,8 @@ void poison(ImageF3& frame) {
 std::vector<FrameCase> frame_cases() {
     std::vector<FrameCase> out;
     const Size size{83, 67};
-    FrameCase c{"Plain", noise(size, 1, 0.9f), {layer({50, 44}, WrapMode::kRepeat, turned)}, {}};
+    FrameCase c{
+        "Plain", linear_noise(size, 1, 0.9f), {layer({50, 44}, WrapMode::kRepeat, turned)}, {}};
     c.layers[0].origin = {11, 9};
     out.push_back(c);
 
@@ -114,7 +115,7 @@ std::vector<FrameCase> frame_cases() {
     c.knee = 0.5f;
     out.push_back(c);
 
-    c = {"LayersOverEachOther", noise(size, 2, 0.9f), {}, 0.9f};
+    c = {"LayersOverEachOther", linear_noise(size, 2, 0.9f), {}, 0.9f};
     c.layers = {layer({60, 60}, WrapMode::kMirror, squeezed),
                 layer({52, 40}, WrapMode::kClamp, turned),
                 layer({40, 52}, WrapMode::kRepeat, magnified)};
@@ -125,7 +126,7 @@ std::vector<FrameCase> frame_cases() {
     c.layers[2].origin = {20, 15};
     out.push_back(c);
 
-    c = {"WholeFrame", noise(size, 8, 0.9f), {layer(size, WrapMode::kMirror, turned)}, 0.9f};
+    c = {"WholeFrame", linear_noise(size, 8, 0.9f), {layer(size, WrapMode::kMirror, turned)}, 0.9f};
     c.layers[0].matte = Matte(size, 255);
     c.layers[0].shading = light({42, 34}, 9, 1.0f);
     c.layers[0].coords.at(40, 30, 0) = std::numeric_limits<float>::quiet_NaN();
@@ -133,10 +134,13 @@ std::vector<FrameCase> frame_cases() {
     out.push_back(c);
 
     // A pixel spans the plane many times: the last level, one texel.
-    c = {"FarAway", noise(size, 12, 0.9f), {layer({40, 30}, WrapMode::kRepeat, far_away)}, {}};
+    c = {"FarAway",
+         linear_noise(size, 12, 0.9f),
+         {layer({40, 30}, WrapMode::kRepeat, far_away)},
+         {}};
     out.push_back(c);
 
-    c = {"NoLayer", noise(size, 10, 0.9f), {}, 0.9f};
+    c = {"NoLayer", linear_noise(size, 10, 0.9f), {}, 0.9f};
     out.push_back(c);
     return out;
 }

@@ -11,7 +11,7 @@
 namespace weft::test {
 namespace {
 
-void expect_same(const Expected<TexturePlane>& is, const Expected<TexturePlane>& should) {
+void expect_same_plane(const Expected<TexturePlane>& is, const Expected<TexturePlane>& should) {
     ASSERT_TRUE(is) << is.error().text();
     ASSERT_TRUE(should) << should.error().text();
     EXPECT_EQ(is->source, should->source);
@@ -80,7 +80,7 @@ TEST_P(DeviceGrowth, IsTheCpus) {
             set_thread_count(threads);
             const auto device = std::make_shared<EmulatedDevice>();
             const GpuBackend backend(device, {"emulated", strategy, 0});
-            expect_same(grown(&backend), should);
+            expect_same_plane(grown(&backend), should);
             EXPECT_GE(device->copies(), should->stats.placements) << "the device was not used";
             EXPECT_THAT(backend.remarks(), testing::IsEmpty());
         }
@@ -95,7 +95,7 @@ TEST_P(DeviceGrowth, IsTheCpusWhenTheDeviceFailsHalfWay) {
         const auto device = std::make_shared<EmulatedDevice>();
         device->fail_at(call, ErrorCode::kNoBackend);
         const GpuBackend backend(device);
-        expect_same(grown(&backend), should);
+        expect_same_plane(grown(&backend), should);
         failed = device->has_failed();
         EXPECT_LE(backend.remarks().size(), failed ? 1u : 0u);
     }

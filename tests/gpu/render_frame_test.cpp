@@ -43,7 +43,7 @@ class DeviceFrame : public testing::Test {
     std::vector<RegionScene> scenes_;
 };
 
-void expect_same(const RenderedFrame& is, const RenderedFrame& should) {
+void expect_same_frame(const RenderedFrame& is, const RenderedFrame& should) {
     EXPECT_EQ(is.pixels, should.pixels);
     EXPECT_EQ(is.touched, should.touched);
     EXPECT_EQ(is.above_one, should.above_one);
@@ -53,7 +53,7 @@ void expect_same(const RenderedFrame& is, const RenderedFrame& should) {
 TEST_F(DeviceFrame, IsWhatTheCpuRenders) {
     const auto device = std::make_shared<EmulatedDevice>();
     const GpuBackend backend(device);
-    expect_same(rendered(backend), rendered(*make_cpu_backend()));
+    expect_same_frame(rendered(backend), rendered(*make_cpu_backend()));
     EXPECT_GT(device->copies(), 10) << "the device was not used";
     EXPECT_THAT(backend.remarks(), testing::IsEmpty());
 }
@@ -66,7 +66,7 @@ TEST_F(DeviceFrame, ComesFromTheCpuWhenTheDeviceFailsHalfWay) {
         const auto device = std::make_shared<EmulatedDevice>();
         device->fail_at(call, ErrorCode::kNoBackend);
         const GpuBackend backend(device);
-        expect_same(rendered(backend), should);
+        expect_same_frame(rendered(backend), should);
         failed = device->has_failed();
         // At the very last call the frame is there already.
         EXPECT_LE(backend.remarks().size(), failed ? 1u : 0u);
@@ -77,7 +77,7 @@ TEST_F(DeviceFrame, IsTheCpusWhereTheLightIsNotAGain) {
     plan_.regions[0].light.form = LightForm::kLiteral;
     const auto device = std::make_shared<EmulatedDevice>();
     const GpuBackend backend(device);
-    expect_same(rendered(backend), rendered(*make_cpu_backend()));
+    expect_same_frame(rendered(backend), rendered(*make_cpu_backend()));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ class SearchContract : public testing::TestWithParam<Searcher> {
     std::string skipped_;
 };
 
-void expect_same(const PlaneSearchResult& is, const PlaneSearchResult& should) {
+void expect_same_found(const PlaneSearchResult& is, const PlaneSearchResult& should) {
     EXPECT_EQ(is.best, should.best);
     EXPECT_EQ(is.best_cost.ssd, should.best_cost.ssd);
     EXPECT_EQ(is.best_cost.weight, should.best_cost.weight);
@@ -66,7 +66,7 @@ TEST_P(SearchContract, FindsWhatTheDefinitionSays) {
             ASSERT_TRUE(search->update(rect_of(c.canvas), c.pixels, c.filled));
             const auto found = search->find(request);
             ASSERT_TRUE(found) << found.error().text();
-            expect_same(*found, should);
+            expect_same_found(*found, should);
             if (!GetParam().gives_costs) continue;
             EXPECT_EQ(found->costs, should.costs);
         }
@@ -84,7 +84,7 @@ TEST_P(SearchContract, TheFactorOfGoodOnesIsTheRequests) {
         ASSERT_TRUE(search->update(rect_of(c.canvas), c.pixels, c.filled));
         const auto found = search->find(request);
         ASSERT_TRUE(found);
-        expect_same(*found, by_definition(c, request));
+        expect_same_found(*found, by_definition(c, request));
         if (numerator == 100u) {
             EXPECT_THAT(found->good, testing::SizeIs(testing::Lt(5u)));
         } else if (numerator == 100000u) {
@@ -106,7 +106,7 @@ TEST_P(SearchContract, GrowsTheSamePlane) {
             EXPECT_GT(is.size(), 8u);
             for (std::size_t i = 0; i < is.size(); ++i) {
                 SCOPED_TRACE("placement " + std::to_string(i));
-                expect_same(is[i], should[i]);
+                expect_same_found(is[i], should[i]);
             }
         }
     }
@@ -125,7 +125,7 @@ TEST_P(SearchContract, OneSearchServesRequestsOfAllSizes) {
         request.hi = {slack, slack};
         const auto found = search->find(request);
         ASSERT_TRUE(found);
-        expect_same(*found, by_definition(c, request));
+        expect_same_found(*found, by_definition(c, request));
     }
 }
 
@@ -146,7 +146,7 @@ TEST_P(BadRequest, IsAnErrorAndLeavesTheSearchUsable) {
     EXPECT_EQ(found.error().code, ErrorCode::kUsage);
     const auto again = search->find(c.request);
     ASSERT_TRUE(again);
-    expect_same(*again, by_definition(c, c.request));
+    expect_same_found(*again, by_definition(c, c.request));
 }
 
 const std::uint8_t kOne[1] = {1};

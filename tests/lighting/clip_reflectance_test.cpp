@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr int kFrames = 8, kStep = 18;
+constexpr int kClipFrames = 8, kStep = 18;
 
 struct Clip {
     std::vector<SurfaceSample> samples;
@@ -26,8 +26,9 @@ Clip clip(float exposure_at_end = 1) {
     const Matte matte = scene::box_matte({10, 10, 310, 230});
     Clip c;
     ReflectanceGatherer gatherer(options);
-    for (int f = 0; f < kFrames; ++f) {
-        const float exposure = 1 + (exposure_at_end - 1) * static_cast<float>(f) / (kFrames - 1);
+    for (int f = 0; f < kClipFrames; ++f) {
+        const float exposure =
+            1 + (exposure_at_end - 1) * static_cast<float>(f) / (kClipFrames - 1);
         c.samples.push_back(light_sample(scene::plate(exposure, shadow_at(f)), matte, options));
         gatherer.add(c.samples.back(), ImageF2(c.samples.back().box.size()));
     }
@@ -209,7 +210,7 @@ TEST(ClipReflectance, AStillShadowOnAFaintPatternIsLight) {
 TEST(ClipReflectance, ALightThatDimsIsFollowed) {
     const Clip c = clip(0.6f);
     const float first = shading_at(c, 0).value.at(140, 60);
-    const float last = shading_at(c, kFrames - 1).value.at(140, 60);
+    const float last = shading_at(c, kClipFrames - 1).value.at(140, 60);
     EXPECT_NEAR(last / first, 0.6f, 0.018f);
 }
 

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-constexpr int kSide = 96;
+constexpr int kGlossSide = 96;
 constexpr std::array<float, 3> kWhite{0, 0, 0};  // ln
 constexpr std::array<float, 3> kGreen{0.03f, 0.3f, 0.12f}, kRed{0.35f, 0.04f, 0.04f};
 
@@ -23,15 +23,15 @@ float mirrored_at(int x, int y) {
 }
 
 float shade_at(int x) {
-    return 0.3f + 0.7f * static_cast<float>(x) / kSide;
+    return 0.3f + 0.7f * static_cast<float>(x) / kGlossSide;
 }
 
 // A surface of `paint` (by place) under a light that falls off, with a highlight and some noise.
 ImageF3 glossy(const std::function<const std::array<float, 3>&(int x)>& paint) {
-    ImageF3 plate(kSide, kSide);
+    ImageF3 plate(kGlossSide, kGlossSide);
     Rng rng(3);
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x)
+    for (int y = 0; y < kGlossSide; ++y)
+        for (int x = 0; x < kGlossSide; ++x)
             for (std::size_t c = 0; c < 3; ++c)
                 plate.pixel(x, y)[c] = paint(x)[c] * shade_at(x) + mirrored_at(x, y) +
                                        0.002f * static_cast<float>(rng.uniform());
@@ -43,19 +43,19 @@ const std::array<float, 3>& green(int /*x*/) {
 }
 
 Shading flat_light(float value) {
-    return {ImageF1(kSide, kSide, value), 1, {kSide, kSide}, {}};
+    return {ImageF1(kGlossSide, kGlossSide, value), 1, {kGlossSide, kGlossSide}, {}};
 }
 
-const Matte kAll(Size{kSide, kSide}, 255);
+const Matte kGlossMatte(Size{kGlossSide, kGlossSide}, 255);
 
 TEST(Highlights, OfACarAreWhatItMirrors) {
     const ImageF3 plate = glossy(green);
-    const SurfaceColours colours = surface_colours(plate, kAll, kWhite);
+    const SurfaceColours colours = surface_colours(plate, kGlossMatte, kWhite);
     EXPECT_GT(colours.confidence, 0.95f);
     // On black nothing is seen but gloss.
-    ImageF3 texture(kSide, kSide, 0.0f);
-    add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {1, 0, kSide}));
+    ImageF3 texture(kGlossSide, kGlossSide, 0.0f);
+    add_highlights(texture, find_highlights({0, 0}, plate, kGlossMatte, flat_light(1), colours, {},
+                                            {1, 0, kGlossSide}));
     for (const auto [x, y] : {std::array{40, 30}, {46, 34}, {30, 30}, {80, 80}, {8, 60}})
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(texture.at(x, y, c), mirrored_at(x, y), 0.03f) << x << " " << y;
@@ -63,29 +63,29 @@ TEST(Highlights, OfACarAreWhatItMirrors) {
 
 TEST(Highlights, LightIsNotPutOnTwice) {
     const ImageF3 plate = glossy(green);
-    const SurfaceColours colours = surface_colours(plate, kAll, kWhite);
+    const SurfaceColours colours = surface_colours(plate, kGlossMatte, kWhite);
     // A texture whose light has the highlight in it, as an estimate from the plate may have.
-    ImageF3 texture(kSide, kSide);
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x)
+    ImageF3 texture(kGlossSide, kGlossSide);
+    for (int y = 0; y < kGlossSide; ++y)
+        for (int x = 0; x < kGlossSide; ++x)
             for (std::size_t c = 0; c < 3; ++c)
                 texture.pixel(x, y)[c] = plate.pixel(x, y)[1];
     const float before = texture.at(40, 30, 1);
-    add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {1, 0, kSide}));
+    add_highlights(texture, find_highlights({0, 0}, plate, kGlossMatte, flat_light(1), colours, {},
+                                            {1, 0, kGlossSide}));
     EXPECT_LT(texture.at(40, 30, 1), 1.25f * before);
     EXPECT_NEAR(texture.at(80, 80, 1), kGreen[1] * shade_at(80), 0.05f);
 }
 
 TEST(Highlights, OfAGreySurfaceAreItsExcess) {
-    ImageF3 plate(kSide, kSide, 0.2f);
+    ImageF3 plate(kGlossSide, kGlossSide, 0.2f);
     for (int c = 0; c < 3; ++c)
         plate.at(10, 10, c) = 3.0f;
-    const SurfaceColours colours = surface_colours(plate, kAll, kWhite);
+    const SurfaceColours colours = surface_colours(plate, kGlossMatte, kWhite);
     EXPECT_EQ(colours.confidence, 0.0f);
-    ImageF3 texture(kSide, kSide, 0.1f);
-    add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {1, 0, kSide}));
+    ImageF3 texture(kGlossSide, kGlossSide, 0.1f);
+    add_highlights(texture, find_highlights({0, 0}, plate, kGlossMatte, flat_light(1), colours, {},
+                                            {1, 0, kGlossSide}));
     EXPECT_NEAR(texture.at(10, 10, 1), 0.1f + 3.0f - 1.15f * 0.2f, 1e-3f);
     EXPECT_EQ(texture.at(30, 30, 1), 0.1f);
 }
@@ -93,21 +93,21 @@ TEST(Highlights, OfAGreySurfaceAreItsExcess) {
 TEST(Highlights, SeveralPaintsAreNotToldFromGloss) {
     const ImageF3 plate = glossy(
         [](int x) -> const std::array<float, 3>& { return x / 12 % 2 == 0 ? kGreen : kRed; });
-    EXPECT_LT(surface_colours(plate, kAll, kWhite).confidence, 0.05f);
+    EXPECT_LT(surface_colours(plate, kGlossMatte, kWhite).confidence, 0.05f);
 }
 
 TEST(Highlights, RoughnessSpreadsThem) {
     const ImageF3 plate = glossy(green);
-    const SurfaceColours colours = surface_colours(plate, kAll, kWhite);
+    const SurfaceColours colours = surface_colours(plate, kGlossMatte, kWhite);
     const auto gloss = [&](float roughness) {
-        ImageF3 texture(kSide, kSide, 0.0f);
-        add_highlights(texture, find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {},
-                                                {1, roughness, 20 * kSide}));
+        ImageF3 texture(kGlossSide, kGlossSide, 0.0f);
+        add_highlights(texture, find_highlights({0, 0}, plate, kGlossMatte, flat_light(1), colours,
+                                                {}, {1, roughness, 20 * kGlossSide}));
         return texture;
     };
     const ImageF3 sharp = gloss(0), rough = gloss(0.1f);
     double sharp_sum = 0, rough_sum = 0;
-    for (std::size_t i = 0; i < std::size_t{3} * kSide * kSide; ++i)
+    for (std::size_t i = 0; i < std::size_t{3} * kGlossSide * kGlossSide; ++i)
         sharp_sum += sharp.data()[i], rough_sum += rough.data()[i];
     EXPECT_LT(rough.at(40, 30, 1), 0.9f * sharp.at(40, 30, 1));
     EXPECT_NEAR(rough_sum / sharp_sum, 1.0, 0.05);
@@ -115,14 +115,14 @@ TEST(Highlights, RoughnessSpreadsThem) {
 
 TEST(Highlights, NoneAndNoNumbersChangeNothing) {
     ImageF3 plate = glossy(green);
-    const SurfaceColours colours = surface_colours(plate, kAll, kWhite);
+    const SurfaceColours colours = surface_colours(plate, kGlossMatte, kWhite);
     plate.at(5, 5, 1) = NAN;
-    ImageF3 texture(kSide, kSide, 0.25f);
-    add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {0, 0, kSide}));
+    ImageF3 texture(kGlossSide, kGlossSide, 0.25f);
+    add_highlights(texture, find_highlights({0, 0}, plate, kGlossMatte, flat_light(1), colours, {},
+                                            {0, 0, kGlossSide}));
     EXPECT_EQ(texture.at(40, 30, 1), 0.25f);
-    add_highlights(texture,
-                   find_highlights({0, 0}, plate, kAll, flat_light(1), colours, {}, {1, 0, kSide}));
+    add_highlights(texture, find_highlights({0, 0}, plate, kGlossMatte, flat_light(1), colours, {},
+                                            {1, 0, kGlossSide}));
     EXPECT_EQ(texture.at(5, 5, 1), 0.25f);
 }
 

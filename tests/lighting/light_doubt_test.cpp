@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 constexpr int kWidth = 240, kHeight = 160;
-const Matte kAll(Size{kWidth, kHeight}, 255);
+const Matte kWallMatte(Size{kWidth, kHeight}, 255);
 
 // A plain wall; `blot`: how dark a blot in its middle is, which may be a stain or a shadow.
 ImageF3 wall(float blot) {
@@ -29,14 +29,14 @@ ImageF3 wall(float blot) {
 }
 
 TEST(LightDoubt, IsSmallOnAPlainWall) {
-    const Shading shading = estimate_shading(wall(0), kAll, {});
+    const Shading shading = estimate_shading(wall(0), kWallMatte, {});
     ASSERT_EQ(shading.sure.size(), shading.value.size());
     EXPECT_GT(shading.sure.at(kWidth / 4, kHeight / 4), 240);
     EXPECT_GT(shading.sure.at(20, 20), 240);
 }
 
 TEST(LightDoubt, IsLargeAtABlotAndOnlyThere) {
-    const Shading shading = estimate_shading(wall(0.9f), kAll, {});
+    const Shading shading = estimate_shading(wall(0.9f), kWallMatte, {});
     EXPECT_LT(shading.sure.at(kWidth / 4, kHeight / 4), 128);
     EXPECT_GT(shading.sure.at(16, 12), 200);
 }
@@ -44,7 +44,8 @@ TEST(LightDoubt, IsLargeAtABlotAndOnlyThere) {
 TEST(LightDoubt, GrowsWithWhatMayBeEither) {
     int before = 256;
     for (const float blot : {0.1f, 0.4f, 0.9f}) {
-        const int sure = estimate_shading(wall(blot), kAll, {}).sure.at(kWidth / 4, kHeight / 4);
+        const int sure =
+            estimate_shading(wall(blot), kWallMatte, {}).sure.at(kWidth / 4, kHeight / 4);
         EXPECT_LT(sure, before) << blot;
         before = sure;
     }

@@ -31,7 +31,7 @@ ImageF3 creased() {
     return out;
 }
 
-Shading even(float value) {
+Shading even_light(float value) {
     return {ImageF1(kPlate.width / 2, kPlate.height / 2, value), 2, kPlate, {}};
 }
 
@@ -40,7 +40,7 @@ Shading changed(const Shading& shading, float amount) {
 }
 
 TEST(LightDetail, AsEstimatedIsTheShadingAtFullSize) {
-    const Shading same = changed(even(0.3f), kEstimatedDetail);
+    const Shading same = changed(even_light(0.3f), kEstimatedDetail);
     EXPECT_EQ(same.value.size(), kPlate);
     EXPECT_EQ(same.downscale, 1);
     for (int x = 0; x < kPlate.width; ++x)
@@ -48,7 +48,7 @@ TEST(LightDetail, AsEstimatedIsTheShadingAtFullSize) {
 }
 
 TEST(LightDetail, AllOfItTakesWhatThePlateShowsAndHalfOfItHalf) {
-    const Shading all = changed(even(0.3f), 1), half = changed(even(0.3f), 0.75f);
+    const Shading all = changed(even_light(0.3f), 1), half = changed(even_light(0.3f), 0.75f);
     const float depth = std::log(all.value.at(60, 80) / all.value.at(120, 80));
     EXPECT_NEAR(depth, std::log(2.0f), 0.1f);
     EXPECT_NEAR(std::log(half.value.at(60, 80) / half.value.at(120, 80)), depth / 2, 1e-3f);
@@ -59,7 +59,7 @@ TEST(LightDetail, AllOfItTakesWhatThePlateShowsAndHalfOfItHalf) {
 }
 
 TEST(LightDetail, NoneOfItIsBroadLightOnly) {
-    Shading ridged = even(0.3f);
+    Shading ridged = even_light(0.3f);
     for (int y = 0; y < ridged.value.height(); ++y)
         for (int x = 0; x < ridged.value.width(); ++x)
             ridged.value.at(x, y) = 0.3f * std::exp(0.2f * std::sin(static_cast<float>(x)) +
@@ -76,7 +76,7 @@ TEST(LightDetail, NoneOfItIsBroadLightOnly) {
 TEST(KeepPlateDetail, MultipliesByTheCreaseAndByNothingElse) {
     const Size size = kBox.size();
     const Matte inside(size, 255);
-    const Shading shading = even(0.3f);
+    const Shading shading = even_light(0.3f);
     const auto kept = [&](const Shading* light, float amount) {
         ImageF3 texture(size, 0.5f);
         keep_plate_detail(texture, {kBox.x0, kBox.y0}, creased(), inside, light, amount);
@@ -93,7 +93,7 @@ TEST(KeepPlateDetail, MultipliesByTheCreaseAndByNothingElse) {
 
 TEST(KeepPlateDetail, LeavesOutWhatTheLightHasAlready) {
     const Matte inside(kBox.size(), 255);
-    const Shading all = changed(even(0.3f), 1);
+    const Shading all = changed(even_light(0.3f), 1);
     ImageF3 texture(kBox.size(), 0.5f);
     keep_plate_detail(texture, {kBox.x0, kBox.y0}, creased(), inside, &all, 1);
     EXPECT_NEAR(texture.at(100, 60, 0), 0.5f, 0.02f);

@@ -8,12 +8,12 @@
 namespace weft {
 namespace {
 
-constexpr int kSide = 64;
+constexpr int kNoiseSide = 64;
 
-ImageF3 noise(float middle, float swing, unsigned key) {
-    ImageF3 out(kSide, kSide);
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
+ImageF3 tinted_noise(float middle, float swing, unsigned key) {
+    ImageF3 out(kNoiseSide, kNoiseSide);
+    for (int y = 0; y < kNoiseSide; ++y) {
+        for (int x = 0; x < kNoiseSide; ++x) {
             key = key * 1664525u + 1013904223u;
             const float v =
                 middle + swing * (static_cast<float>(key >> 8 & 0xffffu) / 65535.0f - 0.5f);
@@ -30,8 +30,8 @@ struct Moments {
 };
 Moments lumas(const ImageF3& p) {
     double n = 0, s = 0, ss = 0;
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kNoiseSide; ++y) {
+        for (int x = 0; x < kNoiseSide; ++x) {
             const float* q = p.pixel(x, y);
             const double v = linear_to_srgb(0.2126f * q[0] + 0.7152f * q[1] + 0.0722f * q[2]);
             n += 1, s += v, ss += v * v;
@@ -41,11 +41,11 @@ Moments lumas(const ImageF3& p) {
 }
 
 TEST(PlateTransfer, StatisticsAndHistogramGiveThePlatesMeanAndDeviation) {
-    const ImageF3 plate = noise(0.4f, 0.2f, 3);
+    const ImageF3 plate = tinted_noise(0.4f, 0.2f, 3);
     const Matte all(plate.size(), 255);
     const Moments want = lumas(plate);
     for (const bool histogram : {false, true}) {
-        ImageF3 texture = noise(0.7f, 0.4f, 9);
+        ImageF3 texture = tinted_noise(0.7f, 0.4f, 9);
         if (histogram)
             match_histogram(texture, plate, all, 1);
         else
@@ -59,11 +59,11 @@ TEST(PlateTransfer, StatisticsAndHistogramGiveThePlatesMeanAndDeviation) {
 
 // Grey paint under light that is blue in the dark half.
 TEST(PlateTransfer, TheColourOfLightIsTakenOver) {
-    ImageF3 plate(kSide, kSide);
-    Shading shading{ImageF1(kSide, kSide), 1, plate.size()};
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
-            const bool dark = x < kSide / 2;
+    ImageF3 plate(kNoiseSide, kNoiseSide);
+    Shading shading{ImageF1(kNoiseSide, kNoiseSide), 1, plate.size()};
+    for (int y = 0; y < kNoiseSide; ++y) {
+        for (int x = 0; x < kNoiseSide; ++x) {
+            const bool dark = x < kNoiseSide / 2;
             plate.at(x, y, 0) = dark ? 0.10f : 0.4f;
             plate.at(x, y, 1) = dark ? 0.12f : 0.4f;
             plate.at(x, y, 2) = dark ? 0.20f : 0.4f;
@@ -74,7 +74,7 @@ TEST(PlateTransfer, TheColourOfLightIsTakenOver) {
     const Matte all(plate.size(), 255);
     const LightColour colour = light_colour(plate, all, shading);
     ASSERT_TRUE(colour.known);
-    ImageF3 texture(kSide, kSide, 0.5f);
+    ImageF3 texture(kNoiseSide, kNoiseSide, 0.5f);
     apply_cast(texture, {0, 0}, all, shading, 0.4f, colour, colour, 1);
     EXPECT_GT(texture.at(5, 5, 2), 1.3f * texture.at(5, 5, 0));
     EXPECT_NEAR(texture.at(60, 5, 2), 0.5f, 0.02f);

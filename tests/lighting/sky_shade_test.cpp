@@ -15,7 +15,7 @@
 namespace weft {
 namespace {
 
-const Recti kAll{8, 8, 312, 232};
+const Recti kShadedBox{8, 8, 312, 232};
 constexpr std::array<float, 3> kSun{0.78f, 0.70f, 0.60f}, kSky{0.17f, 0.20f, 0.26f};
 
 // How much of the sun comes through, 0 to 1: blobs of some 20 px with soft edges.
@@ -34,7 +34,7 @@ float light_at(int x, int y) {
 
 // `paint(x, y)`: reflectance, R, G and B. With grain of half a per cent.
 template <class Paint>
-ImageF3 plate_of(const Paint& paint) {
+ImageF3 shaded_plate(const Paint& paint) {
     ImageF3 plate(scene::kSize);
     unsigned state = 1;
     for (int y = 0; y < plate.height(); ++y) {
@@ -58,7 +58,7 @@ struct Shade {
 };
 
 Shade shade_of(const ImageF3& plate, const Daylight& daylight) {
-    const SurfaceSample sample = sample_surface(plate, scene::box_matte(kAll), 1);
+    const SurfaceSample sample = sample_surface(plate, scene::box_matte(kShadedBox), 1);
     return {colour_cues(sample, 28, daylight).light, sample.box};
 }
 
@@ -115,7 +115,7 @@ ImageF3 awning() {
 }
 
 Daylight of_the_shot() {
-    return find_daylight(plate_of(plain));
+    return find_daylight(shaded_plate(plain));
 }
 
 TEST(Daylight, IsFoundOnShadows) {
@@ -127,7 +127,7 @@ TEST(Daylight, IsFoundOnShadows) {
 
 TEST(Daylight, IsTheSameOnAnotherPaint) {
     const auto rust = [](int, int) { return std::array<float, 3>{0.42f, 0.20f, 0.12f}; };
-    const Daylight daylight = find_daylight(plate_of(rust));
+    const Daylight daylight = find_daylight(shaded_plate(rust));
     EXPECT_EQ(daylight.confidence, 1);
     EXPECT_NEAR(daylight.slope, of_the_shot().slope, 0.02f);
 }
@@ -142,30 +142,30 @@ TEST(Daylight, IsNotSeenWhereThereIsNone) {
 
 TEST(Daylight, BearsPlatesThatAreSmallOrNotFinite) {
     EXPECT_EQ(find_daylight(ImageF3(Size{3, 2})).confidence, 0);
-    ImageF3 plate = plate_of(plain);
+    ImageF3 plate = shaded_plate(plain);
     for (int y = 100; y < 140; ++y)
         plate.pixel(160, y)[1] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_NEAR(find_daylight(plate).slope, of_the_shot().slope, 0.02f);
 }
 
 TEST(SkyShade, GivesTheLightOnAPlainWall) {
-    const Shade shade = shade_of(plate_of(plain), of_the_shot());
+    const Shade shade = shade_of(shaded_plate(plain), of_the_shot());
     ASSERT_FALSE(shade.ln.empty());
     EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.995);
 }
 
 TEST(SkyShade, GivesItOnTilesOfOneColourAndNotTheTiles) {
-    const Shade shade = shade_of(plate_of(tiles), of_the_shot());
+    const Shade shade = shade_of(shaded_plate(tiles), of_the_shot());
     ASSERT_FALSE(shade.ln.empty());
     EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.95);
 }
 
 TEST(SkyShade, GivesItOnTilesOfTwoColours) {
-    const ImageF3 plate = plate_of(coloured);
+    const ImageF3 plate = shaded_plate(coloured);
     const Shade shade = shade_of(plate, of_the_shot());
     ASSERT_FALSE(shade.ln.empty());
     EXPECT_GT(correlation_with_light(shade.ln, shade.box), 0.93);
-    const SurfaceSample sample = sample_surface(plate, scene::box_matte(kAll), 1);
+    const SurfaceSample sample = sample_surface(plate, scene::box_matte(kShadedBox), 1);
     EXPECT_LT(correlation_with_light(sample.luma, sample.box), 0.85) << "the tiles are too faint";
 }
 
@@ -178,10 +178,10 @@ TEST(SkyShade, IsNotTrustedWhereTheColoursDoNotFollow) {
 // What is decided must not pop on a frame that says something else, or nothing.
 TEST(SkyShade, IsTrustedByTheFramesBefore) {
     const auto evidence_of = [](const ImageF3& plate, const Daylight& daylight) {
-        const SurfaceSample sample = sample_surface(plate, scene::box_matte(kAll), 1);
+        const SurfaceSample sample = sample_surface(plate, scene::box_matte(kShadedBox), 1);
         return colour_cues(sample, 28, daylight).evidence;
     };
-    const ImageF3 lit = plate_of(plain), white = tiles_in_white_light();
+    const ImageF3 lit = shaded_plate(plain), white = tiles_in_white_light();
     Daylight daylight = of_the_shot();
     for (int frame = 0; frame < 20; ++frame)
         daylight.before = evidence_of(lit, daylight);
@@ -192,29 +192,29 @@ TEST(SkyShade, IsTrustedByTheFramesBefore) {
 }
 
 TEST(SkyShade, IsNotSoughtWithoutDaylight) {
-    EXPECT_TRUE(shade_of(plate_of(plain), {}).ln.empty());
+    EXPECT_TRUE(shade_of(shaded_plate(plain), {}).ln.empty());
 }
 
 // A single frame is enough for leaves on a plain wall, which were taken for its pattern.
 TEST(SkyShade, KeepsTheLeavesOfASingleFrame) {
     ShadingOptions options;
     options.downscale = 1;
-    const ImageF3 plate = plate_of(plain);
-    const Matte matte = scene::box_matte(kAll);
+    const ImageF3 plate = shaded_plate(plain);
+    const Matte matte = scene::box_matte(kShadedBox);
     const Shading shading = estimate_shading(plate, matte, options);
-    ImageF1 ln(kAll.size());
+    ImageF1 ln(kShadedBox.size());
     for (int y = 0; y < ln.height(); ++y) {
         for (int x = 0; x < ln.width(); ++x)
-            ln.at(x, y) = std::log(shading.value.at(x + kAll.x0, y + kAll.y0));
+            ln.at(x, y) = std::log(shading.value.at(x + kShadedBox.x0, y + kShadedBox.y0));
     }
-    EXPECT_GT(correlation_with_light(ln, kAll), 0.985);
+    EXPECT_GT(correlation_with_light(ln, kShadedBox), 0.985);
     options.chromaticity = false;
     const Shading without = estimate_shading(plate, matte, options);
     for (int y = 0; y < ln.height(); ++y) {
         for (int x = 0; x < ln.width(); ++x)
-            ln.at(x, y) = std::log(without.value.at(x + kAll.x0, y + kAll.y0));
+            ln.at(x, y) = std::log(without.value.at(x + kShadedBox.x0, y + kShadedBox.y0));
     }
-    EXPECT_LT(correlation_with_light(ln, kAll), 0.985) << "the scene must need the colour";
+    EXPECT_LT(correlation_with_light(ln, kShadedBox), 0.985) << "the scene must need the colour";
 }
 
 }  // namespace

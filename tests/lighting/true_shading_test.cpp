@@ -39,13 +39,13 @@ Matte read_id(int id) {
     return out;
 }
 
-float luminance(const float* p) {
+float pixel_luminance(const float* p) {
     return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
 }
 
 // Of the estimate and luminance / albedo, over pixels whose neighbours belong to the object too.
-double correlation(const Shading& s, const ImageF3& lit, const ImageF3& albedo,
-                   const Matte& matte) {
+double truth_correlation(const Shading& s, const ImageF3& lit, const ImageF3& albedo,
+                         const Matte& matte) {
     double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
     for (int y = 1; y + 1 < matte.height(); ++y) {
         for (int x = 1; x + 1 < matte.width(); ++x) {
@@ -54,9 +54,9 @@ double correlation(const Shading& s, const ImageF3& lit, const ImageF3& albedo,
                 for (int u = -1; u <= 1; ++u)
                     whole = whole && matte.at(x + u, y + v);
             }
-            const double paint = luminance(albedo.pixel(x, y));
+            const double paint = pixel_luminance(albedo.pixel(x, y));
             if (!whole || paint < 0.015) continue;
-            const double truth = luminance(lit.pixel(x, y)) / paint;
+            const double truth = pixel_luminance(lit.pixel(x, y)) / paint;
             const double estimate = s.value.at(x / s.downscale, y / s.downscale);
             n += 1, a += estimate, b += truth;
             aa += estimate * estimate, bb += truth * truth, ab += estimate * truth;
@@ -75,7 +75,7 @@ class TrueShading : public testing::Test {
     }
     double correlation_of(int id) {
         const Matte matte = read_id(id);
-        return correlation(estimate_shading(lit_, matte, {}), lit_, albedo_, matte);
+        return truth_correlation(estimate_shading(lit_, matte, {}), lit_, albedo_, matte);
     }
     ImageF3 lit_, albedo_;
 };

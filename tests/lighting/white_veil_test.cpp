@@ -8,14 +8,14 @@
 namespace weft {
 namespace {
 
-constexpr Size kSize{64, 48};
+constexpr Size kVeilSize{64, 48};
 
 // Lights from 0.02 to 0.6; the surface, the left half, from 0.02 to 0.3.
 SurfaceLightRange range_of(const std::function<float(float)>& seen) {
-    ImageF3 picture(kSize);
-    Matte surface(kSize);
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    ImageF3 picture(kVeilSize);
+    Matte surface(kVeilSize);
+    for (int y = 0; y < kVeilSize.height; ++y) {
+        for (int x = 0; x < kVeilSize.width; ++x) {
             const float light = 0.02f + 0.58f * static_cast<float>(x) / 63;
             for (int c = 0; c < 3; ++c)
                 picture.at(x, y, c) = std::clamp(seen(light), 0.0f, 1.0f);

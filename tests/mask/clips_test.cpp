@@ -74,7 +74,7 @@ class Clip {
     std::filesystem::path root_;
 };
 
-std::vector<MatteEstimate> walk(const Clip& clip, int from, int to) {
+std::vector<MatteEstimate> walk_clip(const Clip& clip, int from, int to) {
     std::vector<MatteEstimate> result;
     const int step = from < to ? 1 : -1;
     MatteWalker walker(clip.frame(from), clip.mask(from));
@@ -87,7 +87,7 @@ std::vector<MatteEstimate> walk(const Clip& clip, int from, int to) {
 TEST(PropagationOnClips, BlackswanFromOneKeyframe) {
     const Clip clip("davis_blackswan");
     if (!clip.present()) GTEST_SKIP() << "The evaluation clips are not here";
-    const auto mattes = walk(clip, 0, 12);
+    const auto mattes = walk_clip(clip, 0, 12);
     EXPECT_GT(test::overlap(mattes.back().matte, clip.mask(12)), 0.93);
     EXPECT_GT(mattes.back().confidence, 0.7f);
 }
@@ -95,7 +95,7 @@ TEST(PropagationOnClips, BlackswanFromOneKeyframe) {
 TEST(PropagationOnClips, DancerFromOneKeyframeAndFromTwo) {
     const Clip clip("davis_dance-twirl");
     if (!clip.present()) GTEST_SKIP() << "The evaluation clips are not here";
-    const auto before = walk(clip, 0, 8), after = walk(clip, 10, 2);
+    const auto before = walk_clip(clip, 0, 8), after = walk_clip(clip, 10, 2);
     double one = 0, two = 0;
     for (int t = 2; t <= 8; ++t) {
         const auto& a = before[static_cast<std::size_t>(t - 1)];

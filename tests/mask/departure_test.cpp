@@ -7,18 +7,18 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{320, 240};
+constexpr Size kDepartureFrame{320, 240};
 
 // A square of 80 px that moves to the right by 4 px a frame over a background that stands still.
 // `leak`: the frame before took in the strip of 24 px that it leaves behind as well.
-struct Scene {
+struct LeavingSquare {
     Recti square{120, 80, 200, 160};
-    FlowField flow{kFrame};
+    FlowField flow{kDepartureFrame};
 
     void step() {
         square = {square.x0 + 4, square.y0, square.x1 + 4, square.y1};
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        for (int y = 0; y < kDepartureFrame.height; ++y) {
+            for (int x = 0; x < kDepartureFrame.width; ++x) {
                 flow.d.pixel(x, y)[0] = square.contains(x, y) ? -4.0f : 0.0f;
                 flow.d.pixel(x, y)[1] = 0;
                 const bool uncovered =
@@ -29,12 +29,13 @@ struct Scene {
     }
     // Plain pictures, which tell no motions apart.
     [[nodiscard]] const ImageF1& advanced(Departure& departure, ViewF1 before) const {
-        static const ImageU8x3 plain(kFrame);
-        const ImageF2 surface(kFrame);
-        return departure.advance({before, flow, surface, plain, plain, rect_of(kFrame), 1});
+        static const ImageU8x3 plain(kDepartureFrame);
+        const ImageF2 surface(kDepartureFrame);
+        return departure.advance(
+            {before, flow, surface, plain, plain, rect_of(kDepartureFrame), 1});
     }
     [[nodiscard]] ImageF1 phi(int leak_px = 0) const {
-        Matte inside(kFrame);
+        Matte inside(kDepartureFrame);
         for (int y = square.y0; y < square.y1; ++y)
             for (int x = square.x0 - leak_px; x < square.x1; ++x)
                 inside.at(x, y) = 1;
@@ -43,7 +44,7 @@ struct Scene {
 };
 
 TEST(Departure, SpeaksAgainstTheGroundThatIsUncoveredAndForWhatMovesOn) {
-    Scene scene;
+    LeavingSquare scene;
     Departure departure(scene.phi());
     ImageF1 odds;
     for (int frame = 0; frame < 6; ++frame) {
@@ -58,7 +59,7 @@ TEST(Departure, SpeaksAgainstTheGroundThatIsUncoveredAndForWhatMovesOn) {
 
 TEST(Departure, SparesWhatHasLongBeenInsideAndRests) {
     // The lower left corner of the surface stands still like the ground, as a foot does.
-    Scene scene;
+    LeavingSquare scene;
     Departure departure(scene.phi());
     const ImageF1 before = scene.phi();
     scene.step();
@@ -75,23 +76,23 @@ TEST(Departure, SpeaksAgainstOldPixelsOnlyWhereThePictureTellsMotionsApart) {
     // As before, but the foot is too small to be what the surface does, and its picture stays where
     // it was, or is plain and moves with anything.
     const auto odds_of_foot = [](bool plain) {
-        Scene scene;
+        LeavingSquare scene;
         Departure departure(scene.phi());
         const ImageF1 before = scene.phi();
         scene.step();
         for (int y = 150; y < 158; ++y)
             for (int x = 130; x < 138; ++x)
                 scene.flow.d.pixel(x, y)[0] = 0;
-        ImageU8x3 picture(kFrame);
-        for (int y = 0; y < kFrame.height; ++y)
-            for (int x = 0; x < kFrame.width; ++x)
+        ImageU8x3 picture(kDepartureFrame);
+        for (int y = 0; y < kDepartureFrame.height; ++y)
+            for (int x = 0; x < kDepartureFrame.width; ++x)
                 picture.pixel(x, y)[1] = plain ? 90 : static_cast<std::uint8_t>(x * x * 7 + y * 53);
-        ImageF2 surface(kFrame);
-        for (int y = 0; y < kFrame.height; ++y)
-            for (int x = 0; x < kFrame.width; ++x)
+        ImageF2 surface(kDepartureFrame);
+        for (int y = 0; y < kDepartureFrame.height; ++y)
+            for (int x = 0; x < kDepartureFrame.width; ++x)
                 surface.pixel(x, y)[0] = -4;
         return departure
-            .advance({before, scene.flow, surface, picture, picture, rect_of(kFrame), 1})
+            .advance({before, scene.flow, surface, picture, picture, rect_of(kDepartureFrame), 1})
             .at(134, 154);
     };
     EXPECT_GT(odds_of_foot(true), -0.2f);
@@ -99,26 +100,26 @@ TEST(Departure, SpeaksAgainstOldPixelsOnlyWhereThePictureTellsMotionsApart) {
 }
 
 TEST(Departure, SaysNothingOfASurfaceThatRestsOnItsBackground) {
-    Scene scene;
-    FlowField still(kFrame);
-    for (int y = 0; y < kFrame.height; ++y)
-        for (int x = 0; x < kFrame.width; ++x)
+    LeavingSquare scene;
+    FlowField still(kDepartureFrame);
+    for (int y = 0; y < kDepartureFrame.height; ++y)
+        for (int x = 0; x < kDepartureFrame.width; ++x)
             still.valid.row(y)[x] = 1;
     Departure departure(scene.phi());
     scene.flow = still;
     const ImageF1 odds = scene.advanced(departure, scene.phi());
-    for (int y = 0; y < kFrame.height; ++y)
-        for (int x = 0; x < kFrame.width; ++x)
+    for (int y = 0; y < kDepartureFrame.height; ++y)
+        for (int x = 0; x < kDepartureFrame.width; ++x)
             ASSERT_EQ(odds.at(x, y), 0.0f) << x << ", " << y;
 }
 
 TEST(Departure, ForgetsWhatWasCorrected) {
-    Scene scene;
+    LeavingSquare scene;
     Departure departure(scene.phi());
     const ImageF1 before = scene.phi();
     scene.step();
     const float once = scene.advanced(departure, before).at(20, 20);
-    Matte where(kFrame), inside(kFrame);
+    Matte where(kDepartureFrame), inside(kDepartureFrame);
     where.at(20, 20) = 255;
     departure.correct(where, inside);
     const ImageF1 later = scene.phi();
@@ -132,10 +133,10 @@ TEST(Departure, SparesWhatWasConfirmedInside) {
     // A strip left of the surface, which rests, is painted in on the first frame or taken for it.
     constexpr int kStrip_px = 12;
     const auto odds_of = [](bool confirmed) {
-        Scene scene;
+        LeavingSquare scene;
         Departure departure(scene.phi());
         const Recti strip{scene.square.x0 - kStrip_px, 80, scene.square.x0, 160};
-        Matte where(kFrame);
+        Matte where(kDepartureFrame);
         for (int y = strip.y0; y < strip.y1; ++y)
             for (int x = strip.x0; x < strip.x1; ++x)
                 where.at(x, y) = 255;

@@ -13,14 +13,14 @@ namespace {
 using test::DiscScene;
 
 // The disc at time 1, everything that the functions need of the frames around it.
-struct World {
+struct DiscWorld {
     DiscScene scene;
     ImageU8x3 before = scene.frame(0), now = scene.frame(1);
     ImageF1 prev_phi = signed_distance(inside_of(scene.matte(0)), 40);
     ImageF1 expected = signed_distance(inside_of(scene.matte(1)), 40);
     FlowField flow = scene.prev_from_cur(1);
     ImageF2 surface_motion{scene.size};
-    World() {
+    DiscWorld() {
         for (int y = 0; y < scene.size.height; ++y) {
             for (int x = 0; x < scene.size.width; ++x) {
                 surface_motion.pixel(x, y)[0] = -scene.step.x;
@@ -46,7 +46,7 @@ SurfacePalette indifferent(Size size) {
 }
 
 TEST(LimitGrowth, ReliableMotionFromOutsideTakesEvidenceForInsideBack) {
-    World w;
+    DiscWorld w;
     w.now = ImageU8x3(w.scene.size, 128);
     ImageF1 odds(w.scene.size, 2.0f);
     limit_growth(odds, w.input(), indifferent(w.scene.size), 8);
@@ -56,7 +56,7 @@ TEST(LimitGrowth, ReliableMotionFromOutsideTakesEvidenceForInsideBack) {
 }
 
 TEST(LimitGrowth, UnreliableMotionAndEvidenceForOutsideStay) {
-    World w;
+    DiscWorld w;
     w.now = ImageU8x3(w.scene.size, 128);
     ImageF1 odds(w.scene.size, 2.0f);
     w.flow.valid.at(5, 5) = 0;
@@ -68,7 +68,7 @@ TEST(LimitGrowth, UnreliableMotionAndEvidenceForOutsideStay) {
 
 // What differs from the background and has another thing's colours is not the surface.
 TEST(LimitGrowth, ColoursOfOtherThingsSpeakAgainstInside) {
-    World w;
+    DiscWorld w;
     w.flow.valid = Matte(w.scene.size);
     const SurfacePalette palette(w.before, w.prev_phi);
     ImageF1 odds(w.scene.size, 2.0f);
@@ -80,14 +80,14 @@ TEST(LimitGrowth, ColoursOfOtherThingsSpeakAgainstInside) {
 }
 
 TEST(SurfacePalette, KnowsHowForeignTheSurfacesOwnRarestColoursAre) {
-    const World w;
+    const DiscWorld w;
     const SurfacePalette palette(w.before, w.prev_phi);
     EXPECT_GT(palette.own_odds(0.1f), palette.odds(w.before.pixel(5, 5)));
     EXPECT_LE(palette.own_odds(0.1f), palette.own_odds(0.9f));
 }
 
 TEST(SurfaceDifference, IsSmallOnTheSurfaceAndUnknownElsewhere) {
-    const World w;
+    const DiscWorld w;
     const SurfacePalette palette(w.before, w.prev_phi);
     const ImageF1 d = surface_difference(w.input(), palette, 10);
     const Vec2 c = w.scene.center(1);
@@ -98,7 +98,7 @@ TEST(SurfaceDifference, IsSmallOnTheSurfaceAndUnknownElsewhere) {
 }
 
 TEST(SurfacePalette, TellsTheColoursOfBothSidesApart) {
-    const World w;
+    const DiscWorld w;
     const SurfacePalette palette(w.before, w.prev_phi);
     const Vec2 c = w.scene.center(0);
     EXPECT_GT(palette.odds(w.before.pixel(static_cast<int>(c.x), static_cast<int>(c.y))), 0);

@@ -64,7 +64,7 @@ struct Kept {
     double least = 1, last = 0;
 };
 
-Kept walk(const Crossing& scene, bool knows_bar) {
+Kept walk_crossing(const Crossing& scene, bool knows_bar) {
     Kept kept;
     MatteWalker walker(scene.seen(0), scene.matte(0), {}, scene.bar(0));
     for (int t = 1; t <= 20; ++t) {
@@ -88,7 +88,7 @@ TEST(HiddenPart, StaysHiddenWhenTheBoundaryMoves) {
 
 TEST(HiddenPart, ASurfaceStaysWholeBehindWhatPasses) {
     const Crossing scene;
-    const Kept knowing = walk(scene, true), unknowing = walk(scene, false);
+    const Kept knowing = walk_crossing(scene, true), unknowing = walk_crossing(scene, false);
     EXPECT_GT(knowing.least, 0.94);
     EXPECT_GT(knowing.last, 0.96);
     EXPECT_LT(unknowing.least, 0.9);
@@ -98,7 +98,7 @@ TEST(HiddenPart, WhatIsHiddenAltogetherWaitsOnTheBackground) {
     Crossing scene;
     scene.step = Vec2(0);
     scene.bar_px = 70;
-    const Kept knowing = walk(scene, true), unknowing = walk(scene, false);
+    const Kept knowing = walk_crossing(scene, true), unknowing = walk_crossing(scene, false);
     EXPECT_GT(knowing.least, 0.9);
     EXPECT_GT(knowing.last, 0.94);
     EXPECT_LT(unknowing.least, 0.5);

@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-RotoShape square(float left, float top, float side = 20) {
+RotoShape square_at(float left, float top, float side = 20) {
     RotoShape shape;
     for (const Vec2 at : {Vec2{left, top}, Vec2{left + side, top}, Vec2{left + side, top + side},
                           Vec2{left, top + side}})
@@ -34,7 +34,7 @@ void expect_near(Vec2 a, Vec2 b) {
 
 TEST(KeyedShape, TakesOfTheTrackWhatItFollows) {
     const CornerTrack track{{1, kBox}, {2, turned()}};
-    KeyedShape shape{{{1, square(40, 40)}}, ShapeFollow::kNone, "t"};
+    KeyedShape shape{{{1, square_at(40, 40)}}, ShapeFollow::kNone, "t"};
     const auto corner = [&](ShapeFollow follow) {
         shape.follow = follow;
         return shape_on(shape, track, 2).points[0];
@@ -45,14 +45,14 @@ TEST(KeyedShape, TakesOfTheTrackWhatItFollows) {
     expect_near(corner(ShapeFollow::kSimilarity).at, {100, 40});
     expect_near(corner(ShapeFollow::kPlanar).at, {100, 40});
     EXPECT_NEAR(corner(ShapeFollow::kPlanar).feather_px, 4, 1e-3);
-    EXPECT_EQ(shape_on(shape, track, 1), square(40, 40)) << "its own frame";
+    EXPECT_EQ(shape_on(shape, track, 1), square_at(40, 40)) << "its own frame";
     expect_near(shape_on(shape, track, 99).points[0].at, {100, 40});
 }
 
 TEST(KeyedShape, FollowsAPlaneInPerspective) {
     const Quad<double> floor{{{40, 20}, {60, 20}, {100, 100}, {0, 100}}};
     const CornerTrack track{{1, kBox}, {2, floor}};
-    const KeyedShape shape{{{1, square(0, 0, 100)}}, ShapeFollow::kPlanar, "t"};
+    const KeyedShape shape{{{1, square_at(0, 0, 100)}}, ShapeFollow::kPlanar, "t"};
     const RotoShape there = shape_on(shape, track, 2);
     for (std::size_t k = 0; k < 4; ++k)
         expect_near(there.points[k].at, Vec2(floor[k]));
@@ -60,7 +60,7 @@ TEST(KeyedShape, FollowsAPlaneInPerspective) {
 }
 
 TEST(KeyedShape, HandlesGoWithTheMotion) {
-    RotoShape shape = square(40, 40);
+    RotoShape shape = square_at(40, 40);
     shape.points[0].out = {5, 0};
     const RotoShape there =
         moved(shape, track_motion({{1, kBox}, {2, turned()}}, ShapeFollow::kSimilarity, 1, 2));
@@ -76,7 +76,7 @@ TEST(KeyedShape, KeysAreOffsetsRelativeToTheTrack) {
         for (glm::dvec2& corner : track[f])
             corner.x += 10 * (f - 1);
     }
-    KeyedShape shape{{{1, square(10, 10)}, {9, square(94, 10)}}, ShapeFollow::kPosition, "t"};
+    KeyedShape shape{{{1, square_at(10, 10)}, {9, square_at(94, 10)}}, ShapeFollow::kPosition, "t"};
     // The track alone leads to 90 on frame 9.
     expect_near(shape_on(shape, track, 5).points[0].at, {52, 10});
     expect_near(shape_on(shape, track, 9).points[0].at, {94, 10});
@@ -87,8 +87,8 @@ TEST(KeyedShape, KeysAreOffsetsRelativeToTheTrack) {
 TEST(KeyedShape, BeyondTheHorizonItStays) {
     // A plane that vanishes near y = 0 of its own.
     const glm::dmat3 motion{1, 0, 0, 0, 1, 0.02, 0, 0, -0.5};
-    EXPECT_EQ(moved(square(10, 10), motion), square(10, 10));
-    EXPECT_NE(moved(square(10, 60), motion), square(10, 60));
+    EXPECT_EQ(moved(square_at(10, 10), motion), square_at(10, 10));
+    EXPECT_NE(moved(square_at(10, 60), motion), square_at(10, 60));
 }
 
 TEST(KeyedShape, TheTrackStandsStillBeyondItsFrames) {

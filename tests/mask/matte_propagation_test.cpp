@@ -15,7 +15,8 @@ namespace {
 using test::DiscScene;
 using test::overlap;
 
-std::vector<MatteEstimate> walk(const DiscScene& scene, int frames, float motion_error_px = 0) {
+std::vector<MatteEstimate> walk_disc(const DiscScene& scene, int frames,
+                                     float motion_error_px = 0) {
     std::vector<MatteEstimate> result;
     MatteWalker walker(scene.frame(0), scene.matte(0));
     for (int t = 1; t <= frames; ++t) {
@@ -35,14 +36,14 @@ std::vector<MatteEstimate> walk(const DiscScene& scene, int frames, float motion
 
 TEST(MatteWalker, FollowsADiscForTwentyFrames) {
     const DiscScene scene;
-    const auto mattes = walk(scene, 20);
+    const auto mattes = walk_disc(scene, 20);
     EXPECT_GT(overlap(mattes.back().matte, scene.matte(20)), 0.97);
 }
 
 // The edge must not soften from frame to frame: as many partial pixels at the end as at the start.
 TEST(MatteWalker, TheEdgeStaysAsSharpAsItWas) {
     const DiscScene scene;
-    const auto mattes = walk(scene, 20);
+    const auto mattes = walk_disc(scene, 20);
     const auto partial = [](const Matte& m) {
         int n = 0;
         for (int y = 0; y < m.height(); ++y) {
@@ -59,7 +60,7 @@ TEST(MatteWalker, FollowsThroughTheBorderAndOut) {
     DiscScene scene;
     scene.start = Vec2(120, 60);
     scene.step = Vec2(6, 0);
-    const auto mattes = walk(scene, 14);
+    const auto mattes = walk_disc(scene, 14);
     EXPECT_GT(overlap(mattes[4].matte, scene.matte(5)), 0.95);  // half outside
     EXPECT_EQ(mattes.back().matte, Matte(scene.size));
     EXPECT_EQ(mattes.back().confidence, 0);
@@ -88,8 +89,8 @@ TEST(MatteWalker, TheKeyIsNotWrittenTo) {
 
 TEST(MatteWalker, ConfidenceFallsFasterUnderCorruptedMotion) {
     const DiscScene scene;
-    const auto good = walk(scene, 8);
-    const auto bad = walk(scene, 8, 6);
+    const auto good = walk_disc(scene, 8);
+    const auto bad = walk_disc(scene, 8, 6);
     for (std::size_t t = 1; t < good.size(); ++t) {
         EXPECT_LE(good[t].confidence, good[t - 1].confidence);
     }
@@ -136,9 +137,9 @@ TEST(MatteWalker, SteadinessTakesBoilOut) {
 TEST(MatteWalker, GivesTheSameBytesOnAnyNumberOfThreads) {
     const DiscScene scene;
     set_thread_count(1);
-    const auto one = walk(scene, 3);
+    const auto one = walk_disc(scene, 3);
     set_thread_count(3);
-    const auto three = walk(scene, 3);
+    const auto three = walk_disc(scene, 3);
     set_thread_count(0);
     for (std::size_t t = 0; t < one.size(); ++t) {
         EXPECT_EQ(one[t].matte, three[t].matte);

@@ -11,17 +11,17 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{320, 200};
+constexpr Size kFigureFrame{320, 200};
 
 // A red figure of 40×60 px on grey, whose motion departs from the background's where `moves`.
-struct Scene {
-    ImageU8x3 frame{kFrame};
-    ImageF1 departs{kFrame};
-    FlowField flow{kFrame};
+struct FigureScene {
+    ImageU8x3 frame{kFigureFrame};
+    ImageF1 departs{kFigureFrame};
+    FlowField flow{kFigureFrame};
 
-    Scene(const Recti& figure, bool moves) {
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+    FigureScene(const Recti& figure, bool moves) {
+        for (int y = 0; y < kFigureFrame.height; ++y) {
+            for (int x = 0; x < kFigureFrame.width; ++x) {
                 const bool inside = figure.contains(x, y);
                 frame.pixel(x, y)[0] = inside ? 200 : 120;
                 frame.pixel(x, y)[1] = frame.pixel(x, y)[2] = inside ? 30 : 120;
@@ -38,8 +38,8 @@ Recti at(int t) {
     return {kKey.x0 + 100 + 4 * t, kKey.y0, kKey.x1 + 100 + 4 * t, kKey.y1};
 }
 
-ImageF1 distance_of(const Recti& figure) {
-    Matte inside(kFrame);
+ImageF1 figure_distance(const Recti& figure) {
+    Matte inside(kFigureFrame);
     for (int y = figure.y0; y < figure.y1; ++y)
         for (int x = figure.x0; x < figure.x1; ++x)
             inside.at(x, y) = 1;
@@ -59,18 +59,18 @@ double overlap_of(const Matte& found, const Recti& figure) {
 
 // What returns on four frames after the figure was lost.
 std::vector<Matte> returned(MotionReturn& back, bool moves, const ImageF1& seen) {
-    const SurfacePalette palette(Scene(kKey, true).frame, distance_of(kKey));
+    const SurfacePalette palette(FigureScene(kKey, true).frame, figure_distance(kKey));
     std::vector<Matte> out;
     for (int t = 0; t < 4; ++t) {
-        const Scene scene(at(t), moves);
+        const FigureScene scene(at(t), moves);
         out.push_back(back.returned({scene.frame, seen, scene.flow, scene.departs, palette, 1}));
     }
     return out;
 }
 
 TEST(MotionReturn, FindsTheWholeOnceItHasBeenThereForThreeFrames) {
-    const ImageF1 nothing(kFrame, -40);
-    MotionReturn back(distance_of(kKey));
+    const ImageF1 nothing(kFigureFrame, -40);
+    MotionReturn back(figure_distance(kKey));
     EXPECT_TRUE(back.lost(nothing));
     const std::vector<Matte> found = returned(back, true, nothing);
     EXPECT_TRUE(found[0].empty());
@@ -84,23 +84,23 @@ TEST(MotionReturn, FindsTheWholeOnceItHasBeenThereForThreeFrames) {
 }
 
 TEST(MotionReturn, LeavesASurfaceAloneThatIsSeen) {
-    MotionReturn back(distance_of(kKey));
-    EXPECT_FALSE(back.lost(distance_of(kKey)));
-    for (const Matte& matte : returned(back, true, distance_of(kKey)))
+    MotionReturn back(figure_distance(kKey));
+    EXPECT_FALSE(back.lost(figure_distance(kKey)));
+    for (const Matte& matte : returned(back, true, figure_distance(kKey)))
         EXPECT_TRUE(matte.empty());
 }
 
 TEST(MotionReturn, DoesNotTakeAnotherThingOfItsColour) {
     // A far larger one, and two between which nothing decides.
-    const ImageF1 nothing(kFrame, -40);
-    const SurfacePalette palette(Scene(kKey, true).frame, distance_of(kKey));
-    MotionReturn large(distance_of(kKey)), twice(distance_of(kKey));
+    const ImageF1 nothing(kFigureFrame, -40);
+    const SurfacePalette palette(FigureScene(kKey, true).frame, figure_distance(kKey));
+    MotionReturn large(figure_distance(kKey)), twice(figure_distance(kKey));
     for (int t = 0; t < 5; ++t) {
-        const Scene wide({20, 10, 300, 190}, true);
+        const FigureScene wide({20, 10, 300, 190}, true);
         EXPECT_TRUE(
             large.returned({wide.frame, nothing, wide.flow, wide.departs, palette, 1}).empty());
-        Scene two({40, 60, 80, 120}, true);
-        const Scene other({200, 60, 240, 120}, true);
+        FigureScene two({40, 60, 80, 120}, true);
+        const FigureScene other({200, 60, 240, 120}, true);
         for (int y = 60; y < 120; ++y) {
             for (int x = 200; x < 240; ++x) {
                 std::copy_n(other.frame.pixel(x, y), 3, two.frame.pixel(x, y));

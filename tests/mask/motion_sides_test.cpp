@@ -11,14 +11,14 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{160, 120};
-const Recti kAll{0, 0, kFrame.width, kFrame.height};
+constexpr Size kSidesFrame{160, 120};
+const Recti kAll{0, 0, kSidesFrame.width, kSidesFrame.height};
 constexpr int kLeft = 40, kRight = 120, kStrip = 116;  // columns; the strip is the matte's last 4
 
 // The matte as it was painted: of the surface, and of a strip of what is behind it.
 ImageF1 painted() {
-    Image<std::uint8_t, 1> inside(kFrame);
-    for (int y = 10; y < kFrame.height - 10; ++y)
+    Image<std::uint8_t, 1> inside(kSidesFrame);
+    for (int y = 10; y < kSidesFrame.height - 10; ++y)
         for (int x = kLeft; x < kRight; ++x)
             inside.at(x, y) = 1;
     return signed_distance(inside, 40);
@@ -28,10 +28,10 @@ ImageF1 painted() {
 // gives prev_from_cur of the matte's pixels, the strip and the surroundings move by `around`.
 ImageF1 after(int frames, const std::function<Vec2(int, int)>& motion, Vec2 around) {
     const ImageF1 phi = painted();
-    FlowField flow(kFrame);
-    ImageF2 outside(kFrame);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    FlowField flow(kSidesFrame);
+    ImageF2 outside(kSidesFrame);
+    for (int y = 0; y < kSidesFrame.height; ++y) {
+        for (int x = 0; x < kSidesFrame.width; ++x) {
             const bool surface = phi.at(x, y) > 0 && x < kStrip;
             const Vec2 d = surface ? motion(x, y) : around;
             flow.d.pixel(x, y)[0] = d.x, flow.d.pixel(x, y)[1] = d.y;

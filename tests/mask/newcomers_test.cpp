@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{140, 90};
+constexpr Size kTwinFrame{140, 90};
 constexpr int kStep_px = 4, kFrames = 8;
 constexpr Vec2i kOnSurface{100, 45}, kOnTwin{52, 45};
 
@@ -21,7 +21,7 @@ std::uint8_t pattern(int x, int y) {
 
 // A surface moves to the right and uncovers another thing of its kind, which the matte takes in as
 // it comes into view.
-struct World {
+struct TwinWorld {
     bool plain = false;      // neither shows anything
     bool turns = false;      // what comes into view is more of the surface itself
     int step_px = kStep_px;  // of the surface, a frame
@@ -34,9 +34,9 @@ struct World {
     [[nodiscard]] int matte_left(int t) const { return 40 + t * (turns ? step_px - 3 : 0); }
 
     [[nodiscard]] ImageU8x3 frame(int t) const {
-        ImageU8x3 out(kFrame);
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        ImageU8x3 out(kTwinFrame);
+        for (int y = 0; y < kTwinFrame.height; ++y) {
+            for (int x = 0; x < kTwinFrame.width; ++x) {
                 const int moved = x >= left(t) ? step_px : motion_of_twin();
                 const std::uint8_t level = plain ? std::uint8_t{128} : pattern(x - t * moved, y);
                 std::fill_n(out.pixel(x, y), 3, level);
@@ -45,21 +45,21 @@ struct World {
         return out;
     }
     [[nodiscard]] ImageF1 phi(int t) const {
-        ImageF1 out(kFrame);
-        for (int y = 0; y < kFrame.height; ++y)
-            for (int x = 0; x < kFrame.width; ++x)
+        ImageF1 out(kTwinFrame);
+        for (int y = 0; y < kTwinFrame.height; ++y)
+            for (int x = 0; x < kTwinFrame.width; ++x)
                 out.at(x, y) = static_cast<float>(std::clamp(x - matte_left(t), -40, 40));
         return out;
     }
     void advance(int t) {
         const ImageU8x3 now = frame(t), before = frame(t - 1);
         const ImageF1 prev_phi = phi(t - 1), found = phi(t);
-        FlowField flow(kFrame);
-        ImageF2 outside(kFrame);
-        ImageF1 expected(kFrame);
-        Matte appearing(kFrame);
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        FlowField flow(kTwinFrame);
+        ImageF2 outside(kTwinFrame);
+        ImageF1 expected(kTwinFrame);
+        Matte appearing(kTwinFrame);
+        for (int y = 0; y < kTwinFrame.height; ++y) {
+            for (int x = 0; x < kTwinFrame.width; ++x) {
                 const bool covered_before = x >= left(t - 1) && x < left(t) && !turns;
                 appearing.at(x, y) = covered_before ? 255 : 0;
                 flow.valid.at(x, y) = covered_before ? 0 : 255;
@@ -69,7 +69,7 @@ struct World {
             }
         }
         odds = newcomers.advance(
-            {now, before, prev_phi, flow, outside, appearing, expected, rect_of(kFrame), 1});
+            {now, before, prev_phi, flow, outside, appearing, expected, rect_of(kTwinFrame), 1});
         newcomers.settle(found);
     }
     void run() {
@@ -78,14 +78,14 @@ struct World {
     }
     [[nodiscard]] float least() const {
         float out = 0;
-        for (int y = 0; y < kFrame.height; ++y)
-            out = std::min(out, *std::min_element(odds.row(y), odds.row(y) + kFrame.width));
+        for (int y = 0; y < kTwinFrame.height; ++y)
+            out = std::min(out, *std::min_element(odds.row(y), odds.row(y) + kTwinFrame.width));
         return out;
     }
 };
 
 TEST(Newcomers, WhatIsUncoveredAndStaysBehindIsDoubted) {
-    World w;
+    TwinWorld w;
     w.run();
     EXPECT_LT(w.odds.at(kOnTwin.x, kOnTwin.y), -1);
     EXPECT_EQ(w.odds.at(kOnSurface.x, kOnSurface.y), 0);
@@ -93,7 +93,7 @@ TEST(Newcomers, WhatIsUncoveredAndStaysBehindIsDoubted) {
 }
 
 TEST(Newcomers, AStripIsNot) {
-    World w;
+    TwinWorld w;
     for (int t = 1; t <= 3; ++t) {
         w.advance(t);
         EXPECT_EQ(w.least(), 0) << t;
@@ -101,7 +101,7 @@ TEST(Newcomers, AStripIsNot) {
 }
 
 TEST(Newcomers, WhatTurnsIntoViewBelongsToTheSurface) {
-    World w;
+    TwinWorld w;
     w.turns = true;
     for (int t = 1; t <= kFrames; ++t) {
         w.advance(t);
@@ -110,17 +110,17 @@ TEST(Newcomers, WhatTurnsIntoViewBelongsToTheSurface) {
 }
 
 TEST(Newcomers, APlainPictureSaysNothing) {
-    World w;
+    TwinWorld w;
     w.plain = true;
     w.run();
     EXPECT_EQ(w.least(), 0);
 }
 
 TEST(Newcomers, NothingIsSaidWhereBothStandStill) {
-    World w;
+    TwinWorld w;
     w.run();
     ASSERT_LT(w.least(), -1);
-    World still;
+    TwinWorld still;
     still.step_px = 0;
     still.run();
     EXPECT_EQ(still.least(), 0);
@@ -129,43 +129,43 @@ TEST(Newcomers, NothingIsSaidWhereBothStandStill) {
 TEST(Newcomers, KnowWhatCameFromOutside) {
     Newcomers fresh;
     EXPECT_TRUE(fresh.entered().empty());
-    const ImageU8x3 picture = World().frame(0);
-    ImageF1 before(kFrame, -9.0f), now(kFrame, -9.0f), expected(kFrame, -9.0f);
+    const ImageU8x3 picture = TwinWorld().frame(0);
+    ImageF1 before(kTwinFrame, -9.0f), now(kTwinFrame, -9.0f), expected(kTwinFrame, -9.0f);
     for (int y = 30; y < 60; ++y) {
         for (int x = 30; x < 60; ++x)
             now.at(x, y) = 5;
     }
-    const FlowField still(kFrame);
-    const ImageF2 outside(kFrame);
-    const Matte appearing(kFrame);
+    const FlowField still(kTwinFrame);
+    const ImageF2 outside(kTwinFrame);
+    const Matte appearing(kTwinFrame);
     (void)fresh.advance(
-        {picture, picture, before, still, outside, appearing, expected, rect_of(kFrame), 1});
+        {picture, picture, before, still, outside, appearing, expected, rect_of(kTwinFrame), 1});
     fresh.settle(now);
     EXPECT_NE(fresh.entered().at(45, 45), 0);
     EXPECT_EQ(fresh.entered().at(10, 10), 0) << "it is not inside";
     // And stays one, when it has been inside.
     (void)fresh.advance(
-        {picture, picture, now, still, outside, appearing, now, rect_of(kFrame), 1});
+        {picture, picture, now, still, outside, appearing, now, rect_of(kTwinFrame), 1});
     fresh.settle(now);
     EXPECT_NE(fresh.entered().at(45, 45), 0);
 }
 
 // As a camera that zooms out or turns shows more of a wall behind posts.
 TEST(Newcomers, WhatComesIntoThePictureHasNotEntered) {
-    const ImageU8x3 picture = World().frame(0);
-    ImageF1 before(kFrame, -9.0f), now(kFrame, -9.0f);
-    for (int y = 0; y < kFrame.height; ++y) {
+    const ImageU8x3 picture = TwinWorld().frame(0);
+    ImageF1 before(kTwinFrame, -9.0f), now(kTwinFrame, -9.0f);
+    for (int y = 0; y < kTwinFrame.height; ++y) {
         for (int x = 0; x < 20; ++x)
             now.at(x, y) = 5;
     }
-    FlowField from_outside(kFrame);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x)
+    FlowField from_outside(kTwinFrame);
+    for (int y = 0; y < kTwinFrame.height; ++y) {
+        for (int x = 0; x < kTwinFrame.width; ++x)
             from_outside.d.at(x, y, 0) = -20;
     }
     Newcomers newcomers;
-    (void)newcomers.advance({picture, picture, before, from_outside, ImageF2(kFrame), Matte(kFrame),
-                             now, rect_of(kFrame), 1});
+    (void)newcomers.advance({picture, picture, before, from_outside, ImageF2(kTwinFrame),
+                             Matte(kTwinFrame), now, rect_of(kTwinFrame), 1});
     newcomers.settle(now);
     EXPECT_EQ(newcomers.entered().at(10, 45), 0);
 }

@@ -12,12 +12,12 @@ namespace {
 
 using test::overlap;
 
-constexpr Size kFrame{320, 200};
+constexpr Size kBoardFrame{320, 200};
 constexpr Recti kBoard{130, 60, 200, 140};
 constexpr float kPillarWidth = 90, kPillarStep = 9, kPan = 0.6f;
 
 // The camera pans, the pillar passes in front; from `other_from` on another board hangs there.
-struct Scene {
+struct PillarScene {
     int other_from = 1000;
 
     [[nodiscard]] static Vec2 on_wall(Vec2 p, int t) {
@@ -33,9 +33,9 @@ struct Scene {
     }
     [[nodiscard]] ImageU8x3 frame(int t) const {
         static const WaveTexture wall(1), board(2), other(3), pillar(4);
-        ImageU8x3 out(kFrame);
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        ImageU8x3 out(kBoardFrame);
+        for (int y = 0; y < kBoardFrame.height; ++y) {
+            for (int x = 0; x < kBoardFrame.width; ++x) {
                 const Vec2 p = centre_of(x, y), q = on_wall(p, t);
                 std::uint8_t* o = out.pixel(x, y);
                 if (in_pillar(p, t)) {
@@ -54,13 +54,13 @@ struct Scene {
         return out;
     }
     [[nodiscard]] static Matte matte(int t) {
-        return draw(kFrame,
+        return draw(kBoardFrame,
                     [&](Vec2 p) { return on_board(p, t) && !in_pillar(p, t) ? 1.0f : 0.0f; });
     }
     [[nodiscard]] static FlowField prev_from_cur(int t) {
-        FlowField out(kFrame);
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        FlowField out(kBoardFrame);
+        for (int y = 0; y < kBoardFrame.height; ++y) {
+            for (int x = 0; x < kBoardFrame.width; ++x) {
                 const bool pillar = in_pillar(centre_of(x, y), t);
                 out.d.pixel(x, y)[0] = pillar ? -kPillarStep : kPan;
                 out.d.pixel(x, y)[1] = 0;
@@ -71,7 +71,7 @@ struct Scene {
     }
 };
 
-double share_of(const Matte& matte) {
+double share_of_board(const Matte& matte) {
     double sum = 0;
     for (int y = 0; y < matte.height(); ++y)
         for (int x = 0; x < matte.width(); ++x)
@@ -81,32 +81,32 @@ double share_of(const Matte& matte) {
 
 constexpr int kHidden = 22, kBack = 34;  // frames: behind the pillar, and past it
 
-std::vector<Matte> walk(const Scene& scene) {
-    std::vector<Matte> out{Scene::matte(0)};
-    MatteWalker walker(scene.frame(0), Scene::matte(0));
+std::vector<Matte> walk_past_pillar(const PillarScene& scene) {
+    std::vector<Matte> out{PillarScene::matte(0)};
+    MatteWalker walker(scene.frame(0), PillarScene::matte(0));
     for (int t = 1; t <= kBack; ++t)
-        out.push_back(walker.advance(scene.frame(t), Scene::prev_from_cur(t)).matte);
+        out.push_back(walker.advance(scene.frame(t), PillarScene::prev_from_cur(t)).matte);
     return out;
 }
 
 TEST(SurfaceReturn, ABoardComesBackFromBehindAPillar) {
-    const std::vector<Matte> mattes = walk(Scene());
-    ASSERT_EQ(share_of(Scene::matte(kHidden)), 0) << "wholly hidden";
-    EXPECT_LT(share_of(mattes[kHidden]), 0.02);
-    EXPECT_GT(overlap(mattes[kBack], Scene::matte(kBack)), 0.93);
+    const std::vector<Matte> mattes = walk_past_pillar(PillarScene());
+    ASSERT_EQ(share_of_board(PillarScene::matte(kHidden)), 0) << "wholly hidden";
+    EXPECT_LT(share_of_board(mattes[kHidden]), 0.02);
+    EXPECT_GT(overlap(mattes[kBack], PillarScene::matte(kBack)), 0.93);
     // Not only when all of it is seen.
-    EXPECT_GT(overlap(mattes[kBack - 4], Scene::matte(kBack - 4)), 0.7);
+    EXPECT_GT(overlap(mattes[kBack - 4], PillarScene::matte(kBack - 4)), 0.7);
 }
 
 TEST(SurfaceReturn, AnotherBoardInItsPlaceDoesNot) {
-    const std::vector<Matte> mattes = walk({.other_from = kHidden});
-    EXPECT_LT(share_of(mattes[kBack]), 0.02);
+    const std::vector<Matte> mattes = walk_past_pillar({.other_from = kHidden});
+    EXPECT_LT(share_of_board(mattes[kBack]), 0.02);
 }
 
 TEST(SurfaceReturn, WhatIsShownWholeHasNothingToReturn) {
-    const Scene scene;
+    const PillarScene scene;
     const ImageU8x3 frame = scene.frame(0);
-    ImageF1 phi(kFrame, -20);
+    ImageF1 phi(kBoardFrame, -20);
     for (int y = kBoard.y0; y < kBoard.y1; ++y)
         for (int x = kBoard.x0; x < kBoard.x1; ++x)
             phi.at(x, y) = 20;

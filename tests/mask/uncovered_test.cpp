@@ -13,13 +13,13 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{160, 120};
+constexpr Size kUncoveredFrame{160, 120};
 constexpr float kBand_px = 6;
 
 ImageF2 constant(Vec2 d) {
-    ImageF2 field(kFrame);
-    for (int y = 0; y < kFrame.height; ++y)
-        for (int x = 0; x < kFrame.width; ++x)
+    ImageF2 field(kUncoveredFrame);
+    for (int y = 0; y < kUncoveredFrame.height; ++y)
+        for (int x = 0; x < kUncoveredFrame.width; ++x)
             field.pixel(x, y)[0] = d.x, field.pixel(x, y)[1] = d.y;
     return field;
 }
@@ -29,13 +29,13 @@ struct Square {
     static constexpr int kLeft = 50, kTop = 40, kSide = 40, kStep = 6;
     const Recti before{kLeft, kTop, kLeft + kSide, kTop + kSide};
     const Recti now{kLeft + kStep, kTop, kLeft + kStep + kSide, kTop + kSide};
-    FlowField flow{kFrame};
+    FlowField flow{kUncoveredFrame};
     ImageF1 phi;
 
     Square() {
-        Image<std::uint8_t, 1> inside(kFrame);
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        Image<std::uint8_t, 1> inside(kUncoveredFrame);
+        for (int y = 0; y < kUncoveredFrame.height; ++y) {
+            for (int x = 0; x < kUncoveredFrame.width; ++x) {
                 inside.at(x, y) = before.contains(x, y) ? 1 : 0;
                 flow.d.at(x, y, 0) = now.contains(x, y) ? -kStep : 0;
                 const bool uncovered = before.contains(x, y) && !now.contains(x, y);
@@ -46,8 +46,8 @@ struct Square {
     }
     // Of the surface, which may bend, this motion is known beside what was uncovered.
     [[nodiscard]] UncoveredParts parts(Uncovered& walk, Vec2 surface, const ImageF1& seen) const {
-        return walk.advance(
-            {flow, phi, seen, constant(surface), constant(Vec2(0)), rect_of(kFrame), kBand_px});
+        return walk.advance({flow, phi, seen, constant(surface), constant(Vec2(0)),
+                             rect_of(kUncoveredFrame), kBand_px});
     }
     [[nodiscard]] UncoveredParts parts(Vec2 surface) const {
         Uncovered walk;
@@ -98,7 +98,7 @@ TEST(Uncovered, IsNotWhatSwingsOutFarFromTheSurface) {
 TEST(Uncovered, IsNotWhatComesFromBehindAKnownOccluder) {
     const Square scene;
     ImageF1 seen = scene.phi;
-    for (int y = 0; y < kFrame.height; ++y)
+    for (int y = 0; y < kUncoveredFrame.height; ++y)
         std::fill(seen.row(y), seen.row(y) + Square::kLeft + Square::kStep, 0.0f);
     Uncovered walk;
     const UncoveredParts found = scene.parts(walk, Vec2(0), seen);
@@ -142,17 +142,17 @@ struct Sleeve {
         return 24 * std::sin(0.7f * static_cast<float>(x)) * std::sin(0.5f * static_cast<float>(y));
     }
     [[nodiscard]] static Matte matte(int t) {
-        Matte m(kFrame);
-        for (int y = 0; y < kFrame.height; ++y)
-            for (int x = 0; x < kFrame.width; ++x)
+        Matte m(kUncoveredFrame);
+        for (int y = 0; y < kUncoveredFrame.height; ++y)
+            for (int x = 0; x < kUncoveredFrame.width; ++x)
                 m.at(x, y) = inside(x, y, t) ? 255 : 0;
         return m;
     }
     [[nodiscard]] static ImageU8x3 frame(int t) {
         const Vec3 sleeve(170, 110, 80), behind(130, 170, 90), wall(70, 110, 140);
-        ImageU8x3 f(kFrame);
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        ImageU8x3 f(kUncoveredFrame);
+        for (int y = 0; y < kUncoveredFrame.height; ++y) {
+            for (int x = 0; x < kUncoveredFrame.width; ++x) {
                 const bool arm = forearm(t).contains(x, y);
                 const float wave = cloth(x, y - (arm ? kStep * t : 0));
                 const Vec3& paint = inside(x, y, t)          ? sleeve
@@ -165,9 +165,9 @@ struct Sleeve {
         return f;
     }
     [[nodiscard]] static FlowField motion(int t) {
-        FlowField f(kFrame);
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        FlowField f(kUncoveredFrame);
+        for (int y = 0; y < kUncoveredFrame.height; ++y) {
+            for (int x = 0; x < kUncoveredFrame.width; ++x) {
                 if (forearm(t).contains(x, y))
                     f.d.at(x, y, 1) = -kStep;
                 else if (forearm(t - 1).contains(x, y))

@@ -222,8 +222,6 @@ class MotionPass : public MediaTest {
     }
 };
 
-constexpr auto kForward = MotionDirection::kForward, kBackward = MotionDirection::kBackward;
-
 // In all of them the surface goes 3 px to the right and 1 px up in a frame.
 TEST_F(MotionPass, EveryConventionGivesTheSameMotion) {
     const std::vector<float> to_next{3, -1}, to_previous{-3, 1};

@@ -9,14 +9,14 @@
 namespace weft {
 namespace {
 
-constexpr Size kSize{120, 96};
+constexpr Size kDiscSize{120, 96};
 
 // A textured disc before a texture, at half frame `t`, that moves by `step` px from frame to frame.
-Matte picture(int t, double step_x, double step_y) {
-    Matte out(kSize);
+Matte disc_picture(int t, double step_x, double step_y) {
+    Matte out(kDiscSize);
     const double x0 = 40 + 0.5 * t * step_x, y0 = 48 + 0.5 * t * step_y;
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kDiscSize.height; ++y) {
+        for (int x = 0; x < kDiscSize.width; ++x) {
             const double u = x - x0, v = y - y0;
             const double back = 90 + 30 * std::sin(0.21 * x) * std::cos(0.33 * y);
             const double front = 150 + 60 * std::sin(0.4 * u + 0.2 * v) * std::cos(0.5 * v);
@@ -28,8 +28,8 @@ Matte picture(int t, double step_x, double step_y) {
 
 Matte woven(const Matte& upper, const Matte& lower) {
     Matte out = upper;
-    for (int y = 1; y < kSize.height; y += 2)
-        std::copy_n(lower.row(y), kSize.width, out.row(y));
+    for (int y = 1; y < kDiscSize.height; y += 2)
+        std::copy_n(lower.row(y), kDiscSize.width, out.row(y));
     return out;
 }
 
@@ -39,7 +39,7 @@ Fields seen(const std::function<std::pair<int, int>(int)>& fields, double step_x
     FieldMeter meter;
     for (int k = 0; k < 10; ++k) {
         const auto [upper, lower] = fields(k);
-        meter.add(woven(picture(upper, step_x, step_y), picture(lower, step_x, step_y)));
+        meter.add(woven(disc_picture(upper, step_x, step_y), disc_picture(lower, step_x, step_y)));
     }
     return meter.fields(least_share);
 }
@@ -77,7 +77,7 @@ TEST(FieldMeter, KnowsNothingOfWhatStandsStill) {
     FieldMeter meter;
     for (int k = 0; k < 4; ++k) {
         meter.skip();
-        meter.add(picture(8 * k, 2, 0));
+        meter.add(disc_picture(8 * k, 2, 0));
     }
     EXPECT_EQ(meter.fields(0.2), Fields::kUnknown);
 }

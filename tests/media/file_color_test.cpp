@@ -175,7 +175,7 @@ TEST(Orientation, TurnsAsTheTagSays) {
 }
 
 // A grey picture as codes.
-std::vector<int> codes(const PlateFrame& frame) {
+std::vector<int> grey_codes(const PlateFrame& frame) {
     std::vector<int> out;
     for (int y = 0; y < frame.rgb.height(); ++y)
         for (int x = 0; x < frame.rgb.width(); ++x)
@@ -194,7 +194,7 @@ TEST_F(OrientationTest, TiffIsShownAsViewersShowIt) {
         ASSERT_TRUE(output->close());
         const PlateFrame frame = read_image(in("a.tif")).value();
         EXPECT_EQ(frame.rgb.size(), tag < 5 ? (Size{3, 2}) : (Size{2, 3})) << tag;
-        EXPECT_EQ(codes(frame), kSeen[static_cast<std::size_t>(tag - 1)]) << tag;
+        EXPECT_EQ(grey_codes(frame), kSeen[static_cast<std::size_t>(tag - 1)]) << tag;
         EXPECT_EQ(open_plate(in("a.tif"), {}).value()->size(), frame.rgb.size()) << tag;
         EXPECT_EQ(read_matte(in("a.tif"), {}, {}).value().size(), frame.rgb.size()) << tag;
     }
@@ -218,7 +218,7 @@ TEST_F(OrientationTest, JpegAndPngOfACameraToo) {
         png_byte exif[]{'M', 'M', 0, 42, 0, 0, 0, 8, 0, 1, 1, 18, 0, 3, 0, 0, 0, 1, 0, 6, 0, 0};
         png_set_eXIf_1(p, i, sizeof exif, exif);
     });
-    EXPECT_EQ(codes(read_image(in("a.png")).value()), kSeen[5]);
+    EXPECT_EQ(grey_codes(read_image(in("a.png")).value()), kSeen[5]);
 }
 
 TEST(Orientation, ExifIsReadInBothByteOrdersAndNeverBeyondItsEnd) {

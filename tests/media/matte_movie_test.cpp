@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr Size kSize{64, 48};
+constexpr Size kMatteMovieSize{64, 48};
 
 class MovieMatte : public MediaTest {
   protected:
@@ -21,7 +21,7 @@ class MovieMatte : public MediaTest {
                                     const std::vector<std::vector<Codes>>& frames) const {
         CodedMovie out;
         out.format = format;
-        out.size = kSize;
+        out.size = kMatteMovieSize;
         out.stamps.clear();
         for (int k = 0; k < static_cast<int>(frames.size()); ++k)
             out.stamps.push_back(k);
@@ -37,7 +37,7 @@ class MovieMatte : public MediaTest {
     }
     static int right(const Expected<Matte>& matte) {
         EXPECT_TRUE(matte) << matte.error().text();
-        return matte ? matte->at(kSize.width - 1, 0) : -1;
+        return matte ? matte->at(kMatteMovieSize.width - 1, 0) : -1;
     }
 };
 
@@ -47,19 +47,19 @@ TEST_F(MovieMatte, ItsFirstFrameIsThatOfThePlate) {
     EXPECT_TRUE(matte.is_movie());
     EXPECT_FALSE(matte.is_single());
     EXPECT_THAT(matte.list_frames().value(), ElementsAre(1001, 1002, 1003));
-    EXPECT_EQ(left(matte.read(1003, {}, kSize)), 90);
-    EXPECT_EQ(left(matte.read(1001, {}, kSize)), 0);
-    EXPECT_EQ(right(matte.read(1001, {}, kSize)), 255);
-    EXPECT_EQ(right(matte.read(1002, {}, kSize)), 128);
+    EXPECT_EQ(left(matte.read(1003, {}, kMatteMovieSize)), 90);
+    EXPECT_EQ(left(matte.read(1001, {}, kMatteMovieSize)), 0);
+    EXPECT_EQ(right(matte.read(1001, {}, kMatteMovieSize)), 255);
+    EXPECT_EQ(right(matte.read(1002, {}, kMatteMovieSize)), 128);
     for (const int beyond : {1000, 1004})
-        EXPECT_EQ(matte.read(beyond, {}, kSize).error().code, ErrorCode::kMissingFrames);
+        EXPECT_EQ(matte.read(beyond, {}, kMatteMovieSize).error().code, ErrorCode::kMissingFrames);
 }
 
 TEST_F(MovieMatte, LimitedRangeIsStretched) {
     const MatteFiles matte =
         files(movie("m.mkv", AV_PIX_FMT_YUV420P, {{{16, 128, 128}, {235, 128, 128}}}));
-    EXPECT_EQ(left(matte.read(0, {}, kSize)), 0);
-    EXPECT_EQ(right(matte.read(0, {}, kSize)), 255);
+    EXPECT_EQ(left(matte.read(0, {}, kMatteMovieSize)), 0);
+    EXPECT_EQ(right(matte.read(0, {}, kMatteMovieSize)), 255);
 }
 
 // The element fills the first frame.
@@ -67,26 +67,27 @@ TEST_F(MovieMatte, AlphaCountsOnAllFramesIfItIsTransparentOnOne) {
     const std::vector<Codes> full{{50, 50, 50, 255}, {200, 200, 200, 255}};
     const std::vector<Codes> part{{50, 50, 50, 40}, {200, 200, 200, 255}};
     const MatteFiles some = files(movie("some.mkv", AV_PIX_FMT_BGRA, {full, part, full}));
-    EXPECT_EQ(left(some.read(0, {}, kSize)), 255);
-    EXPECT_EQ(left(some.read(1, {}, kSize)), 40);
+    EXPECT_EQ(left(some.read(0, {}, kMatteMovieSize)), 255);
+    EXPECT_EQ(left(some.read(1, {}, kMatteMovieSize)), 40);
     const MatteFiles opaque = files(movie("opaque.mkv", AV_PIX_FMT_BGRA, {full, full}));
-    EXPECT_EQ(left(opaque.read(0, {}, kSize)), 50);
-    EXPECT_EQ(right(opaque.read(1, {}, kSize)), 200);
+    EXPECT_EQ(left(opaque.read(0, {}, kMatteMovieSize)), 50);
+    EXPECT_EQ(right(opaque.read(1, {}, kMatteMovieSize)), 200);
 }
 
 TEST_F(MovieMatte, AChannelMayBeGivenAndTheMatteInverted) {
     const std::string path =
         movie("m.mkv", AV_PIX_FMT_BGRA, {{{10, 20, 30, 40}, {10, 20, 30, 255}}});
     const auto by = [&](const std::string& channel) {
-        return files(path).read(0, {{}, channel, false}, kSize);
+        return files(path).read(0, {{}, channel, false}, kMatteMovieSize);
     };
     EXPECT_EQ(left(by("R")), 10);
     EXPECT_EQ(left(by("G")), 20);
     EXPECT_EQ(left(by("B")), 30);
     EXPECT_EQ(left(by("A")), 40);
-    EXPECT_EQ(left(files(path).read(0, {{}, "A", true}, kSize)), 215);
+    EXPECT_EQ(left(files(path).read(0, {{}, "A", true}, kMatteMovieSize)), 215);
     EXPECT_EQ(by("mask").error().code, ErrorCode::kUnreadable);
-    const auto grey = files(movie("g.mkv", AV_PIX_FMT_GRAY8, {{{1}}})).read(0, {{}, "A"}, kSize);
+    const auto grey =
+        files(movie("g.mkv", AV_PIX_FMT_GRAY8, {{{1}}})).read(0, {{}, "A"}, kMatteMovieSize);
     ASSERT_FALSE(grey);
     EXPECT_THAT(grey.error().message, HasSubstr("no channel 'A'"));
 }
@@ -99,20 +100,21 @@ TEST_F(MovieMatte, WhatItCannotBeIsSaid) {
     EXPECT_THAT(size.error().message, HasSubstr("64x48"));
     MatteSelect objects;
     objects.crypto = "hero";
-    EXPECT_EQ(matte.read(0, objects, kSize).error().code, ErrorCode::kUsage);
-    EXPECT_EQ(matte.read(0, {1, {}, false}, kSize).error().code, ErrorCode::kUsage);
-    EXPECT_EQ(files(in("none.mkv")).read(0, {}, kSize).error().code, ErrorCode::kMissingFrames);
+    EXPECT_EQ(matte.read(0, objects, kMatteMovieSize).error().code, ErrorCode::kUsage);
+    EXPECT_EQ(matte.read(0, {1, {}, false}, kMatteMovieSize).error().code, ErrorCode::kUsage);
+    EXPECT_EQ(files(in("none.mkv")).read(0, {}, kMatteMovieSize).error().code,
+              ErrorCode::kMissingFrames);
     put_bytes(in("x.mp4"), {'x'}, 1);
-    EXPECT_EQ(files(in("x.mp4")).read(0, {}, kSize).error().code, ErrorCode::kUnreadable);
+    EXPECT_EQ(files(in("x.mp4")).read(0, {}, kMatteMovieSize).error().code, ErrorCode::kUnreadable);
 }
 
 TEST_F(MovieMatte, AnotherFileOfTheNameIsReadAnew) {
     const std::string path = movie("m.mkv", AV_PIX_FMT_GRAY8, {{{10}}});
-    EXPECT_EQ(left(files(path).read(0, {}, kSize)), 10);
+    EXPECT_EQ(left(files(path).read(0, {}, kMatteMovieSize)), 10);
     const auto before = files(path).stamp(0).value();
     std::filesystem::remove(path);
     static_cast<void>(movie("m.mkv", AV_PIX_FMT_GRAY8, {{{10}}, {{99}}}));
-    EXPECT_EQ(left(files(path).read(1, {}, kSize)), 99);
+    EXPECT_EQ(left(files(path).read(1, {}, kMatteMovieSize)), 99);
     EXPECT_NE(files(path).stamp(0).value(), before);
     EXPECT_NE(files(path).stamp(0).value(), files(path).stamp(1).value());
 }

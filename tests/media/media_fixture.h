@@ -14,11 +14,15 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/fields.h"
 #include "engine/core/image.h"
 #include "engine/core/rng.h"
 #include "engine/media/frame_writer.h"
 
 namespace weft {
+
+inline constexpr auto kForward = MotionDirection::kForward;
+inline constexpr auto kBackward = MotionDirection::kBackward;
 
 class MediaTest : public ::testing::Test {
   protected:

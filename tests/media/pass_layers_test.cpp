@@ -19,11 +19,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr Size kSize{8, 4};
-constexpr auto kForward = MotionDirection::kForward, kBackward = MotionDirection::kBackward;
+constexpr Size kPassSize{8, 4};
 constexpr auto kBlender = MotionConvention::kBlender;
 
-struct Part {
+struct PassPart {
     std::string name;
     std::vector<std::string> channels;
     std::vector<float> pixel;  // the same everywhere
@@ -31,12 +30,12 @@ struct Part {
 
 class PassLayers : public MediaTest {
   protected:
-    void put(const std::string& name, const std::vector<Part>& parts,
+    void put(const std::string& name, const std::vector<PassPart>& parts,
              const std::string& codec = "zip", const std::vector<std::string>& views = {}) {
         std::vector<OIIO::ImageSpec> specs;
-        for (const Part& part : parts) {
-            OIIO::ImageSpec spec(kSize.width, kSize.height, static_cast<int>(part.channels.size()),
-                                 OIIO::TypeFloat);
+        for (const PassPart& part : parts) {
+            OIIO::ImageSpec spec(kPassSize.width, kPassSize.height,
+                                 static_cast<int>(part.channels.size()), OIIO::TypeFloat);
             spec.channelnames = part.channels;
             spec.attribute("compression", codec);
             if (!views.empty()) {
@@ -59,7 +58,7 @@ class PassLayers : public MediaTest {
                 ASSERT_TRUE(output->open(in(name), specs[at], OIIO::ImageOutput::AppendSubimage));
             }
             std::vector<float> data;
-            for (int i = 0; i < kSize.width * kSize.height; ++i)
+            for (int i = 0; i < kPassSize.width * kPassSize.height; ++i)
                 data.insert(data.end(), parts[at].pixel.begin(), parts[at].pixel.end());
             ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
         }
@@ -67,13 +66,13 @@ class PassLayers : public MediaTest {
     }
     // d(3, 2), or the error's text.
     std::vector<float> motion(const std::string& name, const MotionSelect& select) {
-        const auto flow = read_motion(in(name), select, kSize);
+        const auto flow = read_motion(in(name), select, kPassSize);
         EXPECT_TRUE(flow) << (flow ? "" : flow.error().text());
         if (!flow) return {};
         return {flow->d.at(3, 2, 0), flow->d.at(3, 2, 1), flow->valid.at(3, 2) / 255.0f};
     }
     std::string refusal(const std::string& name, const MotionSelect& select) {
-        const auto flow = read_motion(in(name), select, kSize);
+        const auto flow = read_motion(in(name), select, kPassSize);
         EXPECT_FALSE(flow);
         return flow ? "" : flow.error().message;
     }
@@ -88,13 +87,13 @@ TEST_F(PassLayers, APartsNameIsTheLayerOfItsPlainChannels) {
                       {"beauty", {"R", "G", "B", "A"}, {9, 9, 9, 1}}});
     EXPECT_THAT(motion("parts.exr", {kBlender, kForward}), ElementsAre(2, -1, 1));
     EXPECT_THAT(motion("parts.exr", {kBlender, kBackward, "vector"}), ElementsAre(-3, 1, 1));
-    EXPECT_EQ(read_positions(in("parts.exr"), "", kSize).value().at(1, 1, 2), 6);
-    EXPECT_EQ(read_positions(in("parts.exr"), "Position", kSize).value().at(1, 1, 0), 4);
-    EXPECT_EQ(read_depth(in("parts.exr"), "", kSize).value().at(1, 1), 7);
-    EXPECT_EQ(read_uv(in("parts.exr"), "UV", kSize).value().at(1, 1, 1), 0.5f);
-    const auto missing = read_uv(in("parts.exr"), "beauty", kSize);
+    EXPECT_EQ(read_positions(in("parts.exr"), "", kPassSize).value().at(1, 1, 2), 6);
+    EXPECT_EQ(read_positions(in("parts.exr"), "Position", kPassSize).value().at(1, 1, 0), 4);
+    EXPECT_EQ(read_depth(in("parts.exr"), "", kPassSize).value().at(1, 1), 7);
+    EXPECT_EQ(read_uv(in("parts.exr"), "UV", kPassSize).value().at(1, 1, 1), 0.5f);
+    const auto missing = read_uv(in("parts.exr"), "beauty", kPassSize);
     EXPECT_TRUE(missing) << "any layer with two channels, if it is named";
-    EXPECT_THAT(read_normals(in("parts.exr"), "", kSize).error().message,
+    EXPECT_THAT(read_normals(in("parts.exr"), "", kPassSize).error().message,
                 HasSubstr("Vector: X, Y, Z, W"));
 }
 
@@ -104,10 +103,10 @@ TEST_F(PassLayers, UnnamedChannelsCountWhereNoOtherLayerCanBeMeant) {
     // A picture beside other layers is no motion and no texture coordinates.
     put("picture.exr", {{"", {"R", "G", "B", "N.X", "N.Y", "N.Z"}, {3, 1, 0, 0, 0, 1}}});
     refusal("picture.exr", {MotionConvention::kArnold, kForward});
-    EXPECT_THAT(read_uv(in("picture.exr"), "", kSize).error().message, HasSubstr("no UV pass"));
+    EXPECT_THAT(read_uv(in("picture.exr"), "", kPassSize).error().message, HasSubstr("no UV pass"));
     put("weft.exr",
         {{"", {"R", "G", "B", "A", "stabilize.R", "stabilize.G"}, {.5f, .25f, 1, 1, 0, 0}}});
-    EXPECT_EQ(read_uv(in("weft.exr"), "", kSize).value().at(0, 0, 1), 0.25f);
+    EXPECT_EQ(read_uv(in("weft.exr"), "", kPassSize).value().at(0, 0, 1), 0.25f);
 }
 
 TEST_F(PassLayers, ForwardVectorsAreNotTakenForBackwardOnes) {
@@ -124,9 +123,9 @@ TEST_F(PassLayers, OfBlendersFileOutputNode) {
                       {9, 9, 9, -3, -1, -2, 0.25f, 0.5f, 1, 5}}});
     EXPECT_THAT(motion("node.exr", {kBlender, kBackward}), ElementsAre(-3, 1, 1));
     EXPECT_THAT(refusal("node.exr", {kBlender, kForward}), HasSubstr("backward"));
-    EXPECT_EQ(read_uv(in("node.exr"), "", kSize).value().at(2, 2, 0), 0.25f);
-    EXPECT_EQ(read_uv(in("node.exr"), "UV", kSize).value().at(2, 2, 1), 0.5f);
-    EXPECT_EQ(read_depth(in("node.exr"), "", kSize).value().at(2, 2), 5);
+    EXPECT_EQ(read_uv(in("node.exr"), "", kPassSize).value().at(2, 2, 0), 0.25f);
+    EXPECT_EQ(read_uv(in("node.exr"), "UV", kPassSize).value().at(2, 2, 1), 0.5f);
+    EXPECT_EQ(read_depth(in("node.exr"), "", kPassSize).value().at(2, 2), 5);
 }
 
 // Cycles multiplies coordinates by the coverage.
@@ -142,7 +141,7 @@ TEST_F(PassLayers, CoordinatesOfPartlyCoveredPixelsAreUnknown) {
     EXPECT_EQ(uv.value().at(0, 0, 0), 0.5f);
     EXPECT_TRUE(std::isnan(uv.value().at(1, 0, 0)));
     put("third.exr", {{"", {"uv.X", "uv.Y", "uv.Z"}, {0.25f, 0.5f, 0}}});
-    EXPECT_EQ(read_uv(in("third.exr"), "", kSize).value().at(1, 0, 0), 0.25f)
+    EXPECT_EQ(read_uv(in("third.exr"), "", kPassSize).value().at(1, 0, 0), 0.25f)
         << "a third coordinate is no coverage";
 }
 
@@ -184,8 +183,9 @@ TEST_F(StereoPasses, TheViewOfThePlateIsMeant) {
     EXPECT_EQ(depth("RIGHT"), "RenderLayer.Depth.right, which belongs to RIGHT")
         << "a plate of its own file";
     EXPECT_EQ(depth(""), "RenderLayer.Depth.left, of the file's first view");
-    EXPECT_EQ(read_depth(in("stereo.exr"), "RenderLayer.Depth.right", kSize).value().at(1, 1), 6);
-    EXPECT_EQ(read_depth(in("stereo.exr"), "", kSize).value().at(1, 1), 5);
+    EXPECT_EQ(read_depth(in("stereo.exr"), "RenderLayer.Depth.right", kPassSize).value().at(1, 1),
+              6);
+    EXPECT_EQ(read_depth(in("stereo.exr"), "", kPassSize).value().at(1, 1), 5);
 }
 
 TEST_F(StereoPasses, TheViewMayComeFirst) {
@@ -212,7 +212,8 @@ TEST_F(PassLayers, IdsMayBeNamedByTheirPart) {
     put("ids.exr", {{"bg.IndexOB", {"X"}, {3}}, {"fg.IndexOB", {"X"}, {4}}, {"rgba", {"R"}, {0}}});
     EXPECT_EQ(find_ids(in("ids.exr"), {"fg.Combined"}).value().layer.name, "fg.IndexOB");
     const auto inside = [&](const std::string& channel, int value) {
-        return read_matte(in("ids.exr"), {value, channel, false}, kSize).value().at(1, 1) == 255;
+        return read_matte(in("ids.exr"), {value, channel, false}, kPassSize).value().at(1, 1) ==
+               255;
     };
     EXPECT_TRUE(inside("fg.IndexOB.X", 4));
     EXPECT_TRUE(inside("bg.IndexOB.X", 3));
@@ -226,14 +227,15 @@ TEST_F(PassLayers, WhatIsBesideARenderRegionIsNeitherMotionNorDistance) {
                          {1e4f, 1e4f, 1e4f, 1e4f, 0, 0, 0}}});
     EXPECT_THAT(motion("outside.exr", {kBlender, kForward}), ElementsAre(0, 0, 0));
     EXPECT_THAT(motion("outside.exr", {kBlender, kBackward}), ElementsAre(0, 0, 0));
-    EXPECT_TRUE(std::isnan(read_positions(in("outside.exr"), "", kSize).value().at(1, 1, 1)));
+    EXPECT_TRUE(std::isnan(read_positions(in("outside.exr"), "", kPassSize).value().at(1, 1, 1)));
     for (const float nothing :
          {1e10f, 1e11f, 1e30f, 65504.0f, std::numeric_limits<float>::infinity()}) {
         put("depth.exr", {{"", {"v.Depth.Z"}, {nothing}}});
-        EXPECT_TRUE(std::isinf(read_depth(in("depth.exr"), "", kSize).value().at(1, 1))) << nothing;
+        EXPECT_TRUE(std::isinf(read_depth(in("depth.exr"), "", kPassSize).value().at(1, 1)))
+            << nothing;
     }
     put("depth.exr", {{"", {"v.Depth.Z"}, {9e9f}}});
-    EXPECT_EQ(read_depth(in("depth.exr"), "", kSize).value().at(1, 1), 9e9f);
+    EXPECT_EQ(read_depth(in("depth.exr"), "", kPassSize).value().at(1, 1), 9e9f);
 }
 
 TEST_F(PassLayers, TheCodecOfALayerIsKnown) {
@@ -276,7 +278,7 @@ TEST_F(LightPasses, ThePictureIsNoneOfThem) {
     EXPECT_EQ(red("plain.exr", LightPass::kAlbedo, "rgba"), 9) << "if it is asked for";
     put("own.exr", {{"", {"R", "G", "B"}, {.5f, 0, 0}}});
     EXPECT_EQ(red("own.exr", LightPass::kAlbedo), 0.5f);
-    put_frame(in("own.png"), ImageF3(kSize, 1.0f));
+    put_frame(in("own.png"), ImageF3(kPassSize, 1.0f));
     EXPECT_EQ(red("own.png", LightPass::kAlbedo), 1);
 }
 

@@ -8,15 +8,15 @@
 namespace weft {
 namespace {
 
-constexpr Size kSize{192, 128};
+constexpr Size kNoisySize{192, 128};
 constexpr double kLevels = 4;  // deviation
 
 // Grey with white noise of `levels`, or the same under a box of 2×2, which is softer.
 ImageF3 noisy(std::uint64_t seed, double levels, bool soft = false) {
-    ImageF3 white(kSize), out(kSize);
+    ImageF3 white(kNoisySize), out(kNoisySize);
     Rng rng(seed);
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kNoisySize.height; ++y) {
+        for (int x = 0; x < kNoisySize.width; ++x) {
             for (int c = 0; c < 3; ++c) {
                 const double normal =
                     (rng.uniform() + rng.uniform() + rng.uniform() + rng.uniform() - 2) * 1.7320508;
@@ -24,11 +24,11 @@ ImageF3 noisy(std::uint64_t seed, double levels, bool soft = false) {
             }
         }
     }
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kNoisySize.height; ++y) {
+        for (int x = 0; x < kNoisySize.width; ++x) {
             for (int c = 0; c < 3; ++c) {
                 const auto at = [&](int u, int v) {
-                    return white.at((x + u) % kSize.width, (y + v) % kSize.height, c);
+                    return white.at((x + u) % kNoisySize.width, (y + v) % kNoisySize.height, c);
                 };
                 out.at(x, y, c) =
                     0.5f + (soft ? 0.5f * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)) : at(0, 0));
@@ -40,8 +40,8 @@ ImageF3 noisy(std::uint64_t seed, double levels, bool soft = false) {
 
 GrainSpectrum spectrum_of(const std::vector<ImageF3>& frames) {
     GrainSpectrumMeter meter;
-    const FlowField still = synthetic::constant_motion(kSize, 0, 0);
-    const Matte all(kSize, 255);
+    const FlowField still = synthetic::constant_motion(kNoisySize, 0, 0);
+    const Matte all(kNoisySize, 255);
     for (std::size_t k = 1; k < frames.size(); ++k)
         meter.add(frames[k - 1], frames[k], still, all, true);
     return meter.spectrum();
@@ -73,9 +73,9 @@ TEST(GrainSpectrumMeter, GrainThatDriftsSlowlyCorrelates) {
     const ImageF3 a = noisy(1, kLevels), b = noisy(2, kLevels);
     std::vector<ImageF3> frames;
     for (int k = 0; k < 4; ++k) {
-        ImageF3 mixed(kSize);
-        for (int y = 0; y < kSize.height; ++y) {
-            for (int x = 0; x < kSize.width; ++x) {
+        ImageF3 mixed(kNoisySize);
+        for (int y = 0; y < kNoisySize.height; ++y) {
+            for (int x = 0; x < kNoisySize.width; ++x) {
                 for (int c = 0; c < 3; ++c)
                     mixed.at(x, y, c) =
                         a.at(x, y, c) + static_cast<float>(k) / 3 * (b.at(x, y, c) - a.at(x, y, c));

@@ -12,13 +12,13 @@
 namespace weft {
 namespace {
 
-constexpr Size kSize{160, 120};
+constexpr Size kLitSize{160, 120};
 
 // Light 1 on the left, `dark` on the right of `edge_px`, over a ramp `width_px` wide.
 ImageF1 half_dark(float edge_px, float width_px, float dark) {
-    ImageF1 out(kSize);
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    ImageF1 out(kLitSize);
+    for (int y = 0; y < kLitSize.height; ++y) {
+        for (int x = 0; x < kLitSize.width; ++x) {
             const float t =
                 std::clamp((static_cast<float>(x) + 0.5f - edge_px) / width_px + 0.5f, 0.0f, 1.0f);
             out.at(x, y) = 1.0f + t * (dark - 1.0f);
@@ -28,32 +28,32 @@ ImageF1 half_dark(float edge_px, float width_px, float dark) {
 }
 
 Matte everywhere() {
-    return Matte(kSize, 255);
+    return Matte(kLitSize, 255);
 }
 
 TEST(CompareShading, KnowsTheSameLightAtAnyExposure) {
     const ImageF1 truth = half_dark(80, 4, 0.3f);
     ImageF1 twice = truth;
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x)
+    for (int y = 0; y < kLitSize.height; ++y) {
+        for (int x = 0; x < kLitSize.width; ++x)
             twice.at(x, y) *= 2;
     }
     const ShadingAgreement same = compare_shading(twice, truth, everywhere());
     EXPECT_NEAR(*same.correlation, 1.0, 1e-6);
     EXPECT_LT(same.error_levels, 0.01);
     EXPECT_GT(same.true_deviation_levels, 20);
-    EXPECT_FALSE(compare_shading(ImageF1(kSize, 1.0f), truth, everywhere()).correlation);
+    EXPECT_FALSE(compare_shading(ImageF1(kLitSize, 1.0f), truth, everywhere()).correlation);
 }
 
 TEST(CompareShading, LeavesOutWhatIsOutsideOrNotFinite) {
     const ImageF1 truth = half_dark(80, 4, 0.3f);
     ImageF1 wrong = truth;
     Matte inside = everywhere();
-    for (int x = 0; x < kSize.width; ++x)
+    for (int x = 0; x < kLitSize.width; ++x)
         wrong.at(x, 0) = 9, inside.at(x, 0) = 0, wrong.at(x, 1) = std::nanf("");
     const ShadingAgreement found = compare_shading(wrong, truth, inside);
     EXPECT_NEAR(*found.correlation, 1.0, 1e-6);
-    EXPECT_EQ(found.pixels, kSize.width * (kSize.height - 2));
+    EXPECT_EQ(found.pixels, kLitSize.width * (kLitSize.height - 2));
 }
 
 TEST(ShadowEdges, MeasuresWidthAndLag) {
@@ -70,7 +70,7 @@ TEST(ShadowEdges, MeasuresWidthAndLag) {
 
 TEST(ShadowEdges, CountsThoseThatAreMissing) {
     ShadowEdges edges;
-    edges.add(ImageF1(kSize, 1.0f), half_dark(80, 6, 0.4f), everywhere());
+    edges.add(ImageF1(kLitSize, 1.0f), half_dark(80, 6, 0.4f), everywhere());
     EXPECT_GT(edges.summary().edges, 8);
     EXPECT_EQ(edges.summary().missing_share, 1);
 }
@@ -87,9 +87,9 @@ ImageF3 grey_under(const ImageF1& light, float reflectance) {
 }
 
 Matte disc_with_soft_edge() {
-    Matte out(kSize);
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    Matte out(kLitSize);
+    for (int y = 0; y < kLitSize.height; ++y) {
+        for (int x = 0; x < kLitSize.width; ++x) {
             const float r = std::hypot(static_cast<float>(x) - 80, static_cast<float>(y) - 60);
             out.at(x, y) =
                 static_cast<std::uint8_t>(255 * std::clamp((50 - r) / 4 + 0.5f, 0.0f, 1.0f));
@@ -108,7 +108,7 @@ TEST(TruthComparison, ForgivesOneGainAndSeesWhereAResultIsWrong) {
 
     // Without the shadow: wrong in it, and on the whole.
     TruthComparison flat;
-    const ImageF3 lit = grey_under(ImageF1(kSize, 1.0f), 0.5f);
+    const ImageF3 lit = grey_under(ImageF1(kLitSize, 1.0f), 0.5f);
     flat.gather(lit, truth, matte);
     const TruthComparison::Frame found = flat.compare(lit, truth, matte);
     EXPECT_GT(*found.shadow, 25);
@@ -119,9 +119,9 @@ TEST(TruthComparison, TheGainIsTheMaterialsNotTheBackgrounds) {
     const Matte matte = disc_with_soft_edge();
     // The same disc before a bright background, half as bright as the true one.
     const auto before_background = [&](float reflectance) {
-        ImageF3 out(kSize);
-        for (int y = 0; y < kSize.height; ++y) {
-            for (int x = 0; x < kSize.width; ++x) {
+        ImageF3 out(kLitSize);
+        for (int y = 0; y < kLitSize.height; ++y) {
+            for (int x = 0; x < kLitSize.width; ++x) {
                 const float m = matte.at(x, y) / 255.0f;
                 for (int c = 0; c < 3; ++c)
                     out.at(x, y, c) = linear_to_srgb(m * reflectance + (1 - m) * 0.8f);
@@ -138,9 +138,9 @@ TEST(TruthComparison, TheGainIsTheMaterialsNotTheBackgrounds) {
 TEST(TruthComparison, FollowsADimmingLight) {
     const Matte matte = disc_with_soft_edge();
     TruthComparison comparison;
-    const ImageF3 bright = grey_under(ImageF1(kSize, 1.0f), 0.5f);
-    const ImageF3 dim = grey_under(ImageF1(kSize, 0.6f), 0.5f);
-    const ImageF3 less = grey_under(ImageF1(kSize, 0.8f), 0.5f);
+    const ImageF3 bright = grey_under(ImageF1(kLitSize, 1.0f), 0.5f);
+    const ImageF3 dim = grey_under(ImageF1(kLitSize, 0.6f), 0.5f);
+    const ImageF3 less = grey_under(ImageF1(kLitSize, 0.8f), 0.5f);
     comparison.gather(bright, bright, matte);
     comparison.gather(less, dim, matte);
     EXPECT_EQ(comparison.compare(bright, bright, matte).true_brightness, 1);
@@ -152,10 +152,10 @@ TEST(TruthComparison, FollowsADimmingLight) {
 
 TEST(TruthComparison, AfterABlurThePlaceOfATexelDoesNotMatter) {
     const Matte matte = everywhere();
-    ImageF3 a(kSize), b(kSize);
+    ImageF3 a(kLitSize), b(kLitSize);
     Rng rng(3);
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kLitSize.height; ++y) {
+        for (int x = 0; x < kLitSize.width; ++x) {
             for (int c = 0; c < 3; ++c) {
                 a.at(x, y, c) = 0.4f + 0.2f * static_cast<float>(rng.uniform());
                 b.at(x, y, c) = 0.4f + 0.2f * static_cast<float>(rng.uniform());

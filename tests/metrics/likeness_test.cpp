@@ -2,31 +2,21 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/metrics/ideal.h"
 #include "tests/metrics/synthetic.h"
 
 namespace weft {
 namespace {
 
-constexpr Size kSize{200, 160};
+using synthetic::kSlidSize;
 
-ImageF3 texture_at(float dx) {
-    const ImageF1 luma = IdealTexture(synthetic::blobs(128, 5))
-                             .render_luma(synthetic::constant_motion(kSize, -dx, 0), {});
-    ImageF3 out(kSize);
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
-            for (int c = 0; c < 3; ++c)
-                out.at(x, y, c) = luma.at(x, y) / 255.0f;
-        }
-    }
-    return out;
+ImageF3 slid_picture(float dx) {
+    return synthetic::grey(synthetic::slid_texture(dx, 0));
 }
 
 // Whole from x = 40 to 160, with an edge of half coverage four pixels wide on the left.
 Matte strip() {
-    Matte matte(kSize);
-    for (int y = 0; y < kSize.height; ++y) {
+    Matte matte(kSlidSize);
+    for (int y = 0; y < kSlidSize.height; ++y) {
         for (int x = 36; x < 160; ++x)
             matte.at(x, y) = x < 40 ? 128 : 255;
     }
@@ -34,7 +24,7 @@ Matte strip() {
 }
 
 void brighten(ImageF3& picture, int x0, int x1, float by) {
-    for (int y = 0; y < kSize.height; ++y) {
+    for (int y = 0; y < kSlidSize.height; ++y) {
         for (int x = x0; x < x1; ++x) {
             for (int c = 0; c < 3; ++c)
                 picture.at(x, y, c) += by;
@@ -44,10 +34,10 @@ void brighten(ImageF3& picture, int x0, int x1, float by) {
 
 TEST(Likeness, ThePlaceOfFeatures) {
     SequenceLikeness all;
-    const FrameLikeness same = all.add(1, texture_at(0), texture_at(0), strip());
+    const FrameLikeness same = all.add(1, slid_picture(0), slid_picture(0), strip());
     EXPECT_LT(same.features.mean_px, 1e-6);
     EXPECT_EQ(same.interior, 0);
-    const FrameLikeness off = all.add(2, texture_at(0), texture_at(1.25f), strip());
+    const FrameLikeness off = all.add(2, slid_picture(0), slid_picture(1.25f), strip());
     EXPECT_NEAR(off.features.mean_px, 1.25, 0.03);
     EXPECT_GT(off.interior, 1);
     EXPECT_NEAR(all.summary().largest_offset_px, off.features.mean_px, 1e-9);
@@ -55,11 +45,11 @@ TEST(Likeness, ThePlaceOfFeatures) {
 
 TEST(Likeness, PartsAreToldApart) {
     SequenceLikeness all;
-    ImageF3 wrong = texture_at(0);
+    ImageF3 wrong = slid_picture(0);
     brighten(wrong, 0, 36, 3 / 255.0f);
     brighten(wrong, 36, 40, 20 / 255.0f);
     brighten(wrong, 40, 200, 1 / 255.0f);
-    const FrameLikeness f = all.add(7, texture_at(0), wrong, strip());
+    const FrameLikeness f = all.add(7, slid_picture(0), wrong, strip());
     EXPECT_EQ(f.frame, 7);
     EXPECT_NEAR(f.interior, 1, 1e-3);
     EXPECT_NEAR(f.soft_edge, 20, 1e-3);
@@ -69,20 +59,20 @@ TEST(Likeness, PartsAreToldApart) {
 
 TEST(Likeness, AnEdgeThatIsWrongTheSameWayDoesNotBoil) {
     SequenceLikeness all;
-    ImageF3 wrong = texture_at(0);
+    ImageF3 wrong = slid_picture(0);
     brighten(wrong, 36, 40, 20 / 255.0f);
-    all.add(1, texture_at(0), wrong, strip());
-    EXPECT_NEAR(all.add(2, texture_at(0), wrong, strip()).soft_edge_change, 0, 1e-4);
+    all.add(1, slid_picture(0), wrong, strip());
+    EXPECT_NEAR(all.add(2, slid_picture(0), wrong, strip()).soft_edge_change, 0, 1e-4);
     brighten(wrong, 36, 40, -40 / 255.0f);
-    EXPECT_NEAR(all.add(3, texture_at(0), wrong, strip()).soft_edge_change, 40, 1e-3);
+    EXPECT_NEAR(all.add(3, slid_picture(0), wrong, strip()).soft_edge_change, 40, 1e-3);
 }
 
 TEST(Likeness, TheWorstCropsComeFirstOnePerFrame) {
     SequenceLikeness all(2);
     for (const int level : {4, 9, 1}) {
-        ImageF3 wrong = texture_at(0);
+        ImageF3 wrong = slid_picture(0);
         brighten(wrong, 100, 200, static_cast<float>(level) / 255.0f);
-        all.add(level, texture_at(0), wrong, strip());
+        all.add(level, slid_picture(0), wrong, strip());
     }
     ASSERT_EQ(all.worst().size(), 2u);
     EXPECT_EQ(all.worst()[0].frame, 9);

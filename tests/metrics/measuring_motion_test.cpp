@@ -6,18 +6,13 @@
 #include <opencv2/core/utility.hpp>
 
 #include "engine/core/parallel.h"
-#include "engine/metrics/ideal.h"
 #include "tests/metrics/synthetic.h"
 
 namespace weft {
 namespace {
 
-constexpr Size kSize{200, 160};
-
-ImageF1 texture_at(float dx, float dy) {
-    return IdealTexture(synthetic::blobs(128, 11))
-        .render_luma(synthetic::constant_motion(kSize, -dx, -dy), {});
-}
+using synthetic::kSlidSize;
+using synthetic::slid_texture;
 
 class MeasuringMotion : public testing::TestWithParam<MeasuringEstimator> {
   protected:
@@ -28,13 +23,13 @@ class MeasuringMotion : public testing::TestWithParam<MeasuringEstimator> {
 };
 
 TEST_P(MeasuringMotion, FindsAKnownMotionInsideTheMatte) {
-    const Matte matte = synthetic::rectangle(kSize, {40, 30, 150, 120});
-    const FlowField f =
-        measuring_motion(texture_at(0, 0), texture_at(2.25f, -1.5f), matte, matte, GetParam());
+    const Matte matte = synthetic::rectangle(kSlidSize, {40, 30, 150, 120});
+    const FlowField f = measuring_motion(slid_texture(0, 0, 11), slid_texture(2.25f, -1.5f, 11),
+                                         matte, matte, GetParam());
     double miss = 0;
     int valid = 0;
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kSlidSize.height; ++y) {
+        for (int x = 0; x < kSlidSize.width; ++x) {
             if (f.valid.at(x, y) == 0) continue;
             EXPECT_NE(matte.at(x, y), 0);
             miss += std::hypot(static_cast<double>(f.d.at(x, y, 0)) - 2.25,
@@ -47,31 +42,31 @@ TEST_P(MeasuringMotion, FindsAKnownMotionInsideTheMatte) {
 }
 
 TEST_P(MeasuringMotion, IsTheSameForAnyNumberOfThreads) {
-    const Matte matte(kSize, 255);
+    const Matte matte(kSlidSize, 255);
     set_thread_count(1);
     cv::setNumThreads(1);
     const FlowField one =
-        measuring_motion(texture_at(0, 0), texture_at(3, 1), matte, matte, GetParam());
+        measuring_motion(slid_texture(0, 0, 11), slid_texture(3, 1, 11), matte, matte, GetParam());
     set_thread_count(4);
     cv::setNumThreads(4);
     const FlowField four =
-        measuring_motion(texture_at(0, 0), texture_at(3, 1), matte, matte, GetParam());
+        measuring_motion(slid_texture(0, 0, 11), slid_texture(3, 1, 11), matte, matte, GetParam());
     EXPECT_EQ(one.d, four.d);
     EXPECT_EQ(one.valid, four.valid);
 }
 
 TEST_P(MeasuringMotion, GivesUpWhatIsHidden) {
     // A block of another texture goes right by 5 px over a plate that stands still.
-    ImageF1 earlier = texture_at(0, 0);
+    ImageF1 earlier = slid_texture(0, 0, 11);
     ImageF1 later = earlier;
-    const ImageF1 block = texture_at(40, 50);
+    const ImageF1 block = slid_texture(40, 50, 11);
     for (int y = 60; y < 100; ++y) {
         for (int x = 60; x < 110; ++x) {
             earlier.at(x, y) = block.at(x, y);
             later.at(x + 5, y) = block.at(x, y);
         }
     }
-    const Matte all(kSize, 255);
+    const Matte all(kSlidSize, 255);
     const FlowField f = measuring_motion(earlier, later, all, all, GetParam());
     int hidden = 0;
     int open = 0;
@@ -83,7 +78,8 @@ TEST_P(MeasuringMotion, GivesUpWhatIsHidden) {
     }
     EXPECT_GT(hidden, 36 * 5 / 2);
     EXPECT_GT(open, 36 * 5 * 9 / 10);
-    EXPECT_EQ(measuring_motion(earlier, later, Matte(kSize, 0), all, GetParam()).valid.at(9, 9), 0);
+    EXPECT_EQ(measuring_motion(earlier, later, Matte(kSlidSize, 0), all, GetParam()).valid.at(9, 9),
+              0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, MeasuringMotion,

@@ -16,7 +16,7 @@ namespace {
 
 using namespace synthetic;
 
-constexpr Size kSize{192, 144};
+constexpr Size kPopSize{192, 144};
 constexpr int kFrames = 16;
 
 // How a picture of a frame comes about: the surface moves by 1.5 px a frame.
@@ -43,11 +43,11 @@ std::vector<Wave> waves_of(std::uint64_t seed, double blur_px) {
 }
 
 ImageF3 picture(std::uint64_t seed, int frame, const Taken& how, std::uint64_t noise_seed) {
-    ImageF1 luma(kSize);
+    ImageF1 luma(kPopSize);
     const std::vector<Wave> waves = waves_of(seed, how.blur_px);
     Rng rng(noise_seed, static_cast<std::uint64_t>(frame));
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kPopSize.height; ++y) {
+        for (int x = 0; x < kPopSize.width; ++x) {
             double noise = -6;
             for (int i = 0; i < 12; ++i)
                 noise += rng.uniform();
@@ -61,13 +61,13 @@ ImageF3 picture(std::uint64_t seed, int frame, const Taken& how, std::uint64_t n
     return grey(luma);
 }
 
-Pops measure(const Course& result, const Course& source) {
+Pops measured_pops(const Course& result, const Course& source) {
     MeasureOptions options;
     options.measure_drift = false;
     options.measure_pops = true;
     SequenceMeasure measure(options);
-    const Matte matte = rectangle(kSize, {16, 16, 176, 128});
-    const FlowField motion = constant_motion(kSize, 1.5f, 0);
+    const Matte matte = rectangle(kPopSize, {16, 16, 176, 128});
+    const FlowField motion = constant_motion(kPopSize, 1.5f, 0);
     for (int f = 1; f <= kFrames; ++f) {
         const ImageF3 seen = picture(7, f, result(f), 100), plate = picture(8, f, source(f), 200);
         MeasureFrame frame;
@@ -87,11 +87,11 @@ bool has(const PopsOfKind& pops, int frame) {
 }
 
 TEST(Pops, ASteadyResultHasNone) {
-    EXPECT_TRUE(measure(plain, plain).frames().empty());
+    EXPECT_TRUE(measured_pops(plain, plain).frames().empty());
 }
 
 TEST(Pops, ABlurredFrameIsFound) {
-    const Pops pops = measure([](int f) { return Taken{f == 9 ? 1.2 : 0.0}; }, plain);
+    const Pops pops = measured_pops([](int f) { return Taken{f == 9 ? 1.2 : 0.0}; }, plain);
     const PopsOfKind& kind = pops.of(PopKind::kSharpness);
     EXPECT_TRUE(has(kind, 9) && has(kind, 10));
     EXPECT_TRUE(kind.frame == 9 || kind.frame == 10);
@@ -101,7 +101,7 @@ TEST(Pops, ABlurredFrameIsFound) {
 }
 
 TEST(Pops, ABrighterFrameIsFound) {
-    const Pops pops = measure([](int f) { return Taken{0, f == 6 ? 1.08 : 1.0}; }, plain);
+    const Pops pops = measured_pops([](int f) { return Taken{0, f == 6 ? 1.08 : 1.0}; }, plain);
     const PopsOfKind& kind = pops.of(PopKind::kLight);
     EXPECT_EQ(kind.frames, (std::vector<int>{6, 7}));
     EXPECT_NEAR(kind.largest, std::log(1.08), 0.01);
@@ -109,14 +109,18 @@ TEST(Pops, ABrighterFrameIsFound) {
 }
 
 TEST(Pops, AStepOfGrainIsFound) {
-    const Pops pops = measure([](int f) { return Taken{0, 1, f >= 11 ? 2.0 : 1.0}; }, plain);
+    const Pops pops = measured_pops([](int f) { return Taken{0, 1, f >= 11 ? 2.0 : 1.0}; }, plain);
     EXPECT_EQ(pops.of(PopKind::kGrain).frames, std::vector<int>{11});
     EXPECT_TRUE(pops.of(PopKind::kLight).frames.empty());
     EXPECT_TRUE(pops.of(PopKind::kPlace).frames.empty());
 }
 
 TEST(Pops, AJumpIsFound) {
-    const Pops pops = measure([](int f) { return Taken{0, 1, 1, f >= 8 ? 2.0 : 0.0}; }, plain);
+    const Pops pops = measured_pops(
+        [](int f) {
+            return Taken{0, 1, 1, f >= 8 ? 2.0 : 0.0};
+        },
+        plain);
     const PopsOfKind& kind = pops.of(PopKind::kPlace);
     EXPECT_EQ(kind.frames, std::vector<int>{8});
     EXPECT_NEAR(kind.largest, 2, 0.3);
@@ -124,25 +128,25 @@ TEST(Pops, AJumpIsFound) {
 }
 
 TEST(Pops, AFlickerOnMostFramesDoesNotHideItself) {
-    const Pops pops = measure([](int f) { return Taken{f % 3 == 0 ? 1.0 : 0.0}; }, plain);
+    const Pops pops = measured_pops([](int f) { return Taken{f % 3 == 0 ? 1.0 : 0.0}; }, plain);
     EXPECT_GE(pops.of(PopKind::kSharpness).frames.size(), 8u);
 }
 
 TEST(Pops, WhatThePlateDoesIsNone) {
     // A pull of focus, in the plate and the result; moving light, and a flash.
     const Course pull = [](int f) { return Taken{0.12 * f}; };
-    EXPECT_TRUE(measure(pull, pull).frames().empty());
+    EXPECT_TRUE(measured_pops(pull, pull).frames().empty());
     const Course light = [](int f) { return Taken{0, 1 + 0.15 * std::sin(0.5 * f)}; };
-    EXPECT_TRUE(measure(light, light).frames().empty());
+    EXPECT_TRUE(measured_pops(light, light).frames().empty());
     const Course flash = [](int f) { return Taken{0, f == 7 ? 1.3 : 1.0}; };
-    EXPECT_TRUE(measure(flash, flash).frames().empty());
+    EXPECT_TRUE(measured_pops(flash, flash).frames().empty());
     // A result that does not take the flash does not pop.
-    EXPECT_TRUE(measure(plain, flash).frames().empty());
+    EXPECT_TRUE(measured_pops(plain, flash).frames().empty());
 }
 
 TEST(Pops, APullOfTheResultAloneIsSmooth) {
     const Course pull = [](int f) { return Taken{0.1 * f}; };
-    EXPECT_TRUE(measure(pull, plain).of(PopKind::kSharpness).frames.empty());
+    EXPECT_TRUE(measured_pops(pull, plain).of(PopKind::kSharpness).frames.empty());
 }
 
 TEST(Pops, AStepIsJudgedByThoseAroundIt) {

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kSize{160, 120};
+constexpr Size kClipSize{160, 120};
 constexpr float kStepX = 1.75f;
 constexpr float kStepY = -0.5f;
 
@@ -19,15 +19,15 @@ constexpr float kStepY = -0.5f;
 struct Clip {
     ImageU8x3 plane = synthetic::blobs(96, 21);
     IdealTexture surface{synthetic::blobs(96, 4)};
-    FlowField motion = synthetic::constant_motion(kSize, kStepX, kStepY);
+    FlowField motion = synthetic::constant_motion(kClipSize, kStepX, kStepY);
 
     static Matte matte(int t) {
         const int x = 20 + static_cast<int>(kStepX * static_cast<float>(t));
         const int y = 30 + static_cast<int>(kStepY * static_cast<float>(t));
-        return synthetic::rectangle(kSize, {x, y, x + 80, y + 70});
+        return synthetic::rectangle(kClipSize, {x, y, x + 80, y + 70});
     }
     static FlowField ref_from_cur(int t) {
-        return synthetic::constant_motion(kSize, -kStepX * static_cast<float>(t),
+        return synthetic::constant_motion(kClipSize, -kStepX * static_cast<float>(t),
                                           -kStepY * static_cast<float>(t));
     }
     [[nodiscard]] ImageF3 source(int t) const {
@@ -35,8 +35,8 @@ struct Clip {
     }
     static ImageF3 cut(ImageF3 picture, int t) {
         const Matte m = matte(t);
-        for (int y = 0; y < kSize.height; ++y) {
-            for (int x = 0; x < kSize.width; ++x) {
+        for (int y = 0; y < kClipSize.height; ++y) {
+            for (int x = 0; x < kClipSize.width; ++x) {
                 for (int c = 0; c < 3; ++c) {
                     if (m.at(x, y) == 0) picture.at(x, y, c) = 0;
                 }
@@ -106,7 +106,8 @@ TEST(SequenceMeasure, ATwinGivesTheSameFigures) {
     SequenceMeasure second(options);
     for (int t = 0; t < 3; ++t) {
         const ImageF3 good = Clip::cut(locked(clip, t), t);
-        const ImageF3 still = Clip::cut(IdealTexture(clip.plane).render(FlowField(kSize), {}), t);
+        const ImageF3 still =
+            Clip::cut(IdealTexture(clip.plane).render(FlowField(kClipSize), {}), t);
         const ImageF3 source = clip.source(t);
         const Matte matte = Clip::matte(t);
         MeasureFrame f{t, good, source, matte};
@@ -128,7 +129,7 @@ TEST(SequenceMeasure, ATwinGivesTheSameFigures) {
 TEST(SequenceMeasure, EachFaultShowsInItsOwnFigure) {
     const SequenceMeasures ideal = measure(locked);
     const SequenceMeasures still = measure(
-        [](const Clip& c, int) { return IdealTexture(c.plane).render(FlowField(kSize), {}); });
+        [](const Clip& c, int) { return IdealTexture(c.plane).render(FlowField(kClipSize), {}); });
     EXPECT_GT(*still.tde_over_floor, 6);
     EXPECT_NEAR(still.sharpness_kept.mean, 1.0, 0.2);
     const SequenceMeasures fresh = measure([](const Clip& c, int t) {
@@ -152,8 +153,8 @@ TEST(SequenceMeasure, EachFaultShowsInItsOwnFigure) {
     EXPECT_NEAR(slides.drift->mean_x_px, 1.5, 0.05);
     const SequenceMeasures flickers = measure([](const Clip& c, int t) {
         ImageF3 p = locked(c, t);
-        for (int y = 0; y < kSize.height; ++y) {
-            for (int i = 0; i < 3 * kSize.width; ++i)
+        for (int y = 0; y < kClipSize.height; ++y) {
+            for (int i = 0; i < 3 * kClipSize.width; ++i)
                 p.row(y)[i] *= t % 2 == 0 ? 1.0f : 0.8f;
         }
         return p;
@@ -172,7 +173,7 @@ TEST(SequenceMeasure, EstimatesMotionAndSaysSoWhenNoneIsGiven) {
 
 TEST(SequenceMeasure, BackwardMotionAgreesWithForward) {
     const Clip clip;
-    const FlowField back = synthetic::constant_motion(kSize, -kStepX, -kStepY);
+    const FlowField back = synthetic::constant_motion(kClipSize, -kStepX, -kStepY);
     MeasureOptions options;
     options.ideal.emplace();
     options.ideal->plane = clip.plane;
@@ -209,7 +210,7 @@ TEST(SequenceMeasure, FindsAChangeOutsideTheMatte) {
 
 TEST(SequenceMeasure, RefusesAMatteOfAnotherSize) {
     SequenceMeasure m({});
-    const ImageF3 p(kSize);
+    const ImageF3 p(kClipSize);
     const Matte small(20, 20, 255);
     MeasureFrame f;
     f.frame = 7;

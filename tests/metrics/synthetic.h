@@ -8,6 +8,7 @@
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
 #include "engine/core/rng.h"
+#include "engine/metrics/ideal.h"
 
 namespace weft::synthetic {
 
@@ -59,6 +60,14 @@ inline FlowField constant_motion(Size s, float dx, float dy) {
         }
     }
     return f;
+}
+
+/// The size of slid_texture().
+inline constexpr Size kSlidSize{200, 160};
+
+/// What a textured plane shows when it has slid by (dx, dy).
+inline ImageF1 slid_texture(float dx, float dy, std::uint64_t seed = 5) {
+    return IdealTexture(blobs(128, seed)).render_luma(constant_motion(kSlidSize, -dx, -dy), {});
 }
 
 inline Matte rectangle(Size s, Recti r) {

@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{320, 200};
+constexpr Size kFigureFrame{320, 200};
 
 // A flat figure with a bump on each side, so that its outline tells all of its motion.
 bool in_figure(Vec2 p) {
@@ -18,24 +18,24 @@ bool in_figure(Vec2 p) {
 }
 
 Matte figure(Vec2 at) {
-    return draw(kFrame, [&](Vec2 p) { return in_figure(p - at) ? 1.0f : 0.0f; });
+    return draw(kFigureFrame, [&](Vec2 p) { return in_figure(p - at) ? 1.0f : 0.0f; });
 }
 
 // The figure in one tone over a textured ground, which moves the other way.
 Matte flat_frame(Vec2 at, float noise, std::uint64_t seed) {
     const WaveTexture ground(4);
     Rng rng(seed);
-    return draw(kFrame, [&](Vec2 p) {
+    return draw(kFigureFrame, [&](Vec2 p) {
         const float speckle = noise * static_cast<float>(rng.uniform() - 0.5);
         return in_figure(p - at) ? 0.55f + speckle : ground(p + at);
     });
 }
 
-float mean_error(const FlowField& flow, const Matte& visible, Vec2 truth) {
+float mean_visible_error(const FlowField& flow, const Matte& visible, Vec2 truth) {
     double sum = 0;
     int count = 0;
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    for (int y = 0; y < kFigureFrame.height; ++y) {
+        for (int x = 0; x < kFigureFrame.width; ++x) {
             if (visible.at(x, y) < 128) continue;
             const float* d = flow.d.pixel(x, y);
             sum += distance({d[0], d[1]}, truth);
@@ -50,20 +50,21 @@ TEST(ContourFlow, FollowsAFlatFigureByItsOutline) {
     const Matte prev = flat_frame({0, 0}, 0, 1), cur = flat_frame(step, 0, 2);
     const Matte prev_in = figure({0, 0}), cur_in = figure(step);
     const FlowField flow = estimate_contour_flow(cur, cur_in, prev, prev_in);
-    EXPECT_LT(mean_error(flow, cur_in, -step), 0.3f);
+    EXPECT_LT(mean_visible_error(flow, cur_in, -step), 0.3f);
     // The estimate over the whole frame, which this is for, is misled by the ground.
-    EXPECT_GT(mean_error(estimate_flow(cur, prev, FlowQuality::kFinal), cur_in, -step), 1.0f);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x)
+    EXPECT_GT(mean_visible_error(estimate_flow(cur, prev, FlowQuality::kFinal), cur_in, -step),
+              1.0f);
+    for (int y = 0; y < kFigureFrame.height; ++y) {
+        for (int x = 0; x < kFigureFrame.width; ++x)
             ASSERT_EQ(flow.valid.at(x, y), cur_in.at(x, y) >= 128 ? 255 : 0) << x << "," << y;
     }
 }
 
 TEST(ContourFlow, NothingToFollowIsNothingValid) {
-    const Matte luma = flat_frame({0, 0}, 0, 1), nothing(kFrame);
+    const Matte luma = flat_frame({0, 0}, 0, 1), nothing(kFigureFrame);
     const FlowField flow = estimate_contour_flow(luma, nothing, luma, nothing);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x)
+    for (int y = 0; y < kFigureFrame.height; ++y) {
+        for (int x = 0; x < kFigureFrame.width; ++x)
             ASSERT_EQ(flow.valid.at(x, y), 0);
     }
 }
@@ -71,16 +72,16 @@ TEST(ContourFlow, NothingToFollowIsNothingValid) {
 TEST(StructureToNoise, TellsATextureFromSpeckle) {
     const Vec2 step(2, 1);
     const Matte prev_in = figure({0, 0}), cur_in = figure(step);
-    FlowField truth(kFrame);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    FlowField truth(kFigureFrame);
+    for (int y = 0; y < kFigureFrame.height; ++y) {
+        for (int x = 0; x < kFigureFrame.width; ++x) {
             truth.d.at(x, y, 0) = -step.x;
             truth.d.at(x, y, 1) = -step.y;
         }
     }
     const WaveTexture skin(9);
     const auto textured = [&](Vec2 at) {
-        return draw(kFrame, [&](Vec2 p) { return skin(p - at); });
+        return draw(kFigureFrame, [&](Vec2 p) { return skin(p - at); });
     };
     EXPECT_GT(structure_to_noise(textured(step), cur_in, textured({0, 0}), prev_in, truth), 3.0f);
     // Fresh noise in every frame has slopes too, but nothing of it comes back.
@@ -93,8 +94,8 @@ TEST(StructureToNoise, TellsATextureFromSpeckle) {
 }
 
 TEST(StructureToNoise, IsUnknownWithoutPixels) {
-    const Matte luma = flat_frame({0, 0}, 0, 1), nothing(kFrame);
-    EXPECT_EQ(structure_to_noise(luma, nothing, luma, nothing, FlowField(kFrame)),
+    const Matte luma = flat_frame({0, 0}, 0, 1), nothing(kFigureFrame);
+    EXPECT_EQ(structure_to_noise(luma, nothing, luma, nothing, FlowField(kFigureFrame)),
               std::numeric_limits<float>::infinity());
 }
 

@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{160, 120};
+constexpr Size kLeaningFrame{160, 120};
 
 // Leans and moves.
 Vec2 moved(Vec2 p) {
@@ -16,10 +16,10 @@ Vec2 moved(Vec2 p) {
 }
 
 TEST(FlatMotion, IsThePlaneOfMostOfTheMotion) {
-    ImageF2 flow(kFrame);
-    Matte weights(kFrame, 200);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    ImageF2 flow(kLeaningFrame);
+    Matte weights(kLeaningFrame, 200);
+    for (int y = 0; y < kLeaningFrame.height; ++y) {
+        for (int x = 0; x < kLeaningFrame.width; ++x) {
             // A fifth of it found itself again 20 px further.
             const Vec2 p = centre_of(x, y), d = moved(p) - p + Vec2(x >= 128 ? 20 : 0, 0);
             flow.pixel(x, y)[0] = d.x, flow.pixel(x, y)[1] = d.y;
@@ -31,8 +31,8 @@ TEST(FlatMotion, IsThePlaneOfMostOfTheMotion) {
 }
 
 TEST(FlatMotion, IsNoneWhereNothingIsKnown) {
-    const LatticeField found = fit_flat_motion(ImageF2(kFrame), Matte(kFrame), 8);
-    EXPECT_EQ(found.nodes(), LatticeField(kFrame, 8).nodes());
+    const LatticeField found = fit_flat_motion(ImageF2(kLeaningFrame), Matte(kLeaningFrame), 8);
+    EXPECT_EQ(found.nodes(), LatticeField(kLeaningFrame, 8).nodes());
 }
 
 }  // namespace

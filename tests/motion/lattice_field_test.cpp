@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{101, 67};  // no multiple of any spacing
+constexpr Size kOddFrame{101, 67};  // no multiple of any spacing
 
 template <class F>
 LatticeField field_of(Size full, int spacing, const F& value) {
@@ -34,13 +34,13 @@ Vec2 random_place(Rng& rng, float margin) {
         return static_cast<float>(rng.uniform()) * (static_cast<float>(extent) + 2 * margin) -
                margin;
     };
-    const float x = in(kFrame.width);
-    return {x, in(kFrame.height)};
+    const float x = in(kOddFrame.width);
+    return {x, in(kOddFrame.height)};
 }
 
 LatticeField random_field(int spacing) {
     Rng rng(5);
-    return field_of(kFrame, spacing, [&](Vec2) {
+    return field_of(kOddFrame, spacing, [&](Vec2) {
         const float x = static_cast<float>(rng.uniform());
         return Vec2(10 * x - 5, 10 * static_cast<float>(rng.uniform()) - 5);
     });
@@ -48,7 +48,7 @@ LatticeField random_field(int spacing) {
 
 TEST(LatticeField, InterpolatesQuadraticsExactly) {
     for (const int spacing : {1, 5, 8, 64}) {
-        const LatticeField field = field_of(kFrame, spacing, quadratic);
+        const LatticeField field = field_of(kOddFrame, spacing, quadratic);
         Rng rng(1);
         for (int k = 0; k < 300; ++k) {
             const Vec2 p = random_place(rng, 0);
@@ -69,7 +69,7 @@ TEST(LatticeField, NodesAreInterpolated) {
 
 TEST(LatticeField, DenseIsTheFieldAtPixelCentres) {
     const LatticeField field = random_field(7);
-    for (const Recti area : {rect_of(kFrame), Recti{13, 5, 14, 66}, Recti{90, 60, 101, 67}}) {
+    for (const Recti area : {rect_of(kOddFrame), Recti{13, 5, 14, 66}, Recti{90, 60, 101, 67}}) {
         const ImageF2 dense = field.dense(area);
         ASSERT_EQ(dense.size(), area.size());
         for (int y = 0; y < area.height(); ++y) {
@@ -85,21 +85,21 @@ TEST(LatticeField, DenseIsTheFieldAtPixelCentres) {
 TEST(LatticeField, DenseDoesNotDependOnThreads) {
     const LatticeField field = random_field(8);
     set_thread_count(1);
-    const ImageF2 one = field.dense(rect_of(kFrame));
+    const ImageF2 one = field.dense(rect_of(kOddFrame));
     set_thread_count(3);
-    EXPECT_EQ(field.dense(rect_of(kFrame)), one);
+    EXPECT_EQ(field.dense(rect_of(kOddFrame)), one);
     set_thread_count(0);
 }
 
 TEST(LatticeField, GoesOnLinearlyOutside) {
-    const LatticeField flat = field_of(kFrame, 8, affine);
+    const LatticeField flat = field_of(kOddFrame, 8, affine);
     Rng rng(2);
     for (int k = 0; k < 300; ++k) {
         const Vec2 p = random_place(rng, 200);
         EXPECT_LT(distance(flat.at(p), affine(p)), 2e-3f) << p.x << ", " << p.y;
     }
     // A curved field keeps the gradient that it has at the border: no second difference, no jump.
-    const LatticeField curved = field_of(kFrame, 8, quadratic);
+    const LatticeField curved = field_of(kOddFrame, 8, quadratic);
     for (const Vec2 step : {Vec2(-25, 0), Vec2(25, 0), Vec2(0, -25), Vec2(0, 25)}) {
         const Vec2 a = Vec2(50, 33) + 6.0f * step;
         const Vec2 bend = curved.at(a + step) - 2.0f * curved.at(a) + curved.at(a - step);
@@ -112,9 +112,10 @@ TEST(LatticeField, GoesOnLinearlyOutside) {
 
 TEST(LatticeField, ComposesAffineMaps) {
     const auto inner = [](Vec2 p) { return Vec2(0.5f + 0.02f * p.y, -3.0f - 0.04f * p.x); };
-    const LatticeField both = compose(field_of(kFrame, 8, inner), field_of(kFrame, 5, affine));
+    const LatticeField both =
+        compose(field_of(kOddFrame, 8, inner), field_of(kOddFrame, 5, affine));
     EXPECT_EQ(both.spacing(), 8);
-    EXPECT_EQ(both.full_size(), kFrame);
+    EXPECT_EQ(both.full_size(), kOddFrame);
     Rng rng(3);
     for (int k = 0; k < 200; ++k) {
         const Vec2 p = random_place(rng, 30);
@@ -123,7 +124,7 @@ TEST(LatticeField, ComposesAffineMaps) {
 }
 
 TEST(LatticeField, ComposingWithStandstillChangesNothing) {
-    const LatticeField field = random_field(8), still(kFrame, 8);
+    const LatticeField field = random_field(8), still(kOddFrame, 8);
     EXPECT_EQ(compose(still, field).nodes().size(), field.nodes().size());
     for (int j = 1; j < field.nodes().height() - 1; ++j) {
         for (int i = 1; i < field.nodes().width() - 1; ++i) {
@@ -134,7 +135,7 @@ TEST(LatticeField, ComposingWithStandstillChangesNothing) {
 }
 
 TEST(LatticeField, ResamplesWhatItCanHold) {
-    const LatticeField other = field_of(kFrame, 8, quadratic).resampled(5);
+    const LatticeField other = field_of(kOddFrame, 8, quadratic).resampled(5);
     EXPECT_EQ(other.spacing(), 5);
     Rng rng(4);
     for (int k = 0; k < 200; ++k) {
@@ -144,7 +145,7 @@ TEST(LatticeField, ResamplesWhatItCanHold) {
 }
 
 TEST(LatticeField, MixesNodeByNode) {
-    const LatticeField a = field_of(kFrame, 8, affine), b = field_of(kFrame, 8, quadratic);
+    const LatticeField a = field_of(kOddFrame, 8, affine), b = field_of(kOddFrame, 8, quadratic);
     EXPECT_EQ(mix(a, b, 0).nodes(), a.nodes());
     EXPECT_LT(distance(mix(a, b, 1).node(3, 4), b.node(3, 4)), 1e-5f);
     const Vec2 quarter = 0.75f * a.node(6, 2) + 0.25f * b.node(6, 2);

@@ -7,14 +7,14 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{256, 176};
+constexpr Size kBarFrame{256, 176};
 constexpr Recti kBar{96, 48, 144, 120};
 
 template <class Motion>
 FlowField flow_of(const Motion& motion) {
-    FlowField flow(kFrame);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    FlowField flow(kBarFrame);
+    for (int y = 0; y < kBarFrame.height; ++y) {
+        for (int x = 0; x < kBarFrame.width; ++x) {
             const Vec2 d = motion(centre_of(x, y));
             flow.d.pixel(x, y)[0] = d.x;
             flow.d.pixel(x, y)[1] = d.y;
@@ -32,7 +32,7 @@ bool in_bar(Vec2 p) {
 }
 
 MovingParts found_in(const FlowField& flow) {
-    return find_moving_parts(flow, Matte(kFrame, 255));
+    return find_moving_parts(flow, Matte(kBarFrame, 255));
 }
 
 TEST(MovingParts, FindsWhatSlidesAlongTheBody) {
@@ -42,7 +42,7 @@ TEST(MovingParts, FindsWhatSlidesAlongTheBody) {
     EXPECT_EQ(found.at(kBar.x0 + 12, kBar.y0 + 12), 1);
     EXPECT_EQ(found.at(kBar.x1 - 4, kBar.y1 - 4), 1);
     EXPECT_EQ(found.at(kBar.x0 - 12, kBar.y0 + 12), MovingParts::kBody);
-    EXPECT_EQ(found.at(kFrame.width - 1, kFrame.height - 1), MovingParts::kBody);
+    EXPECT_EQ(found.at(kBarFrame.width - 1, kBarFrame.height - 1), MovingParts::kBody);
 }
 
 TEST(MovingParts, FindsAnArmThatIsJoinedAtOneEnd) {
@@ -82,7 +82,7 @@ TEST(MovingParts, WhatIsNotKnownBelongsToNobody) {
 }
 
 TEST(MovingParts, LooksInsideOfTheMatteOnly) {
-    Matte visible(kFrame, 255);
+    Matte visible(kBarFrame, 255);
     for (int y = kBar.y0 - 8; y < kBar.y1 + 8; ++y)
         std::fill_n(visible.pixel(kBar.x0 - 8, y), kBar.width() + 16, std::uint8_t{0});
     const FlowField flow =

@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{200, 140};
+constexpr Size kFlowFrame{200, 140};
 
 Matte moved_texture(Size size, Vec2 by, std::uint64_t seed = 1) {
     const WaveTexture texture(seed);
@@ -40,8 +40,8 @@ double share_valid(const FlowField& flow, const Recti& area) {
 
 TEST(OpticalFlow, FindsATranslation) {
     const Vec2 by(3.3f, -1.7f);
-    const Matte source = moved_texture(kFrame, {0, 0}), target = moved_texture(kFrame, by);
-    const Recti inner = rect_of(kFrame).grown(-12);
+    const Matte source = moved_texture(kFlowFrame, {0, 0}), target = moved_texture(kFlowFrame, by);
+    const Recti inner = rect_of(kFlowFrame).grown(-12);
     EXPECT_LT(mean_error(estimate_flow(source, target, FlowQuality::kFinal), inner, by), 0.08);
     EXPECT_LT(mean_error(estimate_flow(source, target, FlowQuality::kDraft), inner, by), 0.2);
     // The direction is target_from_source, not its inverse.
@@ -56,7 +56,8 @@ TEST(OpticalFlow, StartsWithEveryPixelValid) {
 }
 
 TEST(OpticalFlow, CropsGiveWhatTheirCopiesGive) {
-    const Matte source = moved_texture(kFrame, {0, 0}), target = moved_texture(kFrame, {2, 1});
+    const Matte source = moved_texture(kFlowFrame, {0, 0}),
+                target = moved_texture(kFlowFrame, {2, 1});
     const Recti box{31, 17, 151, 111};
     const auto copied = [&](const Matte& m) {
         Matte out(box.size());
@@ -89,7 +90,8 @@ TEST(OpticalFlow, TakesTheSmallestPictures) {
 }
 
 TEST(OpticalFlow, DoesNotDependOnThreads) {
-    const Matte source = moved_texture(kFrame, {0, 0}), target = moved_texture(kFrame, {4, -3});
+    const Matte source = moved_texture(kFlowFrame, {0, 0}),
+                target = moved_texture(kFlowFrame, {4, -3});
     const auto both = [&](int threads, FlowQuality quality) {
         cv::setNumThreads(threads);
         set_thread_count(threads);
@@ -132,17 +134,18 @@ TEST(Consistency, MarksWhatWasUncovered) {
 }
 
 TEST(Consistency, MarksWhatLeavesTheFrame) {
-    FlowField there(kFrame), back(kFrame);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    FlowField there(kFlowFrame), back(kFlowFrame);
+    for (int y = 0; y < kFlowFrame.height; ++y) {
+        for (int x = 0; x < kFlowFrame.width; ++x) {
             there.d.at(x, y, 0) = 20;
             back.d.at(x, y, 0) = -20;
         }
     }
     check_consistency(there, back);
-    EXPECT_EQ(share_valid(there, {0, 0, kFrame.width - 20, kFrame.height}), 1.0);
-    EXPECT_EQ(share_valid(there, {kFrame.width - 20, 0, kFrame.width, kFrame.height}), 0.0);
-    EXPECT_EQ(share_valid(back, {0, 0, 20, kFrame.height}), 0.0);
+    EXPECT_EQ(share_valid(there, {0, 0, kFlowFrame.width - 20, kFlowFrame.height}), 1.0);
+    EXPECT_EQ(share_valid(there, {kFlowFrame.width - 20, 0, kFlowFrame.width, kFlowFrame.height}),
+              0.0);
+    EXPECT_EQ(share_valid(back, {0, 0, 20, kFlowFrame.height}), 0.0);
 }
 
 TEST(Consistency, MarksUnknownMotion) {

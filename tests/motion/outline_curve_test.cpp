@@ -7,17 +7,13 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{200, 160};
+constexpr Size kOutlineFrame{200, 160};
 
 Matte rectangle(Vec2 middle, Vec2 half) {
-    return draw(kFrame, [&](Vec2 p) {
+    return draw(kOutlineFrame, [&](Vec2 p) {
         const Vec2 q = glm::abs(p - middle);
         return q.x < half.x && q.y < half.y ? 1.0f : 0.0f;
     });
-}
-
-LatticeField moved_by(Vec2 d) {
-    return weft::moved_by(kFrame, d);
 }
 
 TEST(OutlineCurve, IsSampledEvenlyAroundTheLargestPiece) {
@@ -42,14 +38,14 @@ TEST(OutlineCurve, KnowsWhereTheFrameCutsIt) {
     ASSERT_FALSE(curve.p.empty());
     const auto cut = std::count(curve.cut.begin(), curve.cut.end(), 1);
     EXPECT_NEAR(static_cast<double>(cut) / static_cast<double>(curve.p.size()), 60.0 / 240, 0.04);
-    EXPECT_TRUE(match_outlines(curve, curve, moved_by({0, 0})).empty());
+    EXPECT_TRUE(match_outlines(curve, curve, moved_by(kOutlineFrame, {0, 0})).empty());
 }
 
 TEST(OutlineCurve, PairsCornersWithCornersWhereverTheShapeWent) {
     const OutlineCurve prev = outline_curve(rectangle({80, 70}, {50, 30}));
     const OutlineCurve cur = outline_curve(rectangle({115, 88}, {50, 30}));
     // Half of the way is a rough guess.
-    const auto pairs = match_outlines(prev, cur, moved_by({-17, -9}));
+    const auto pairs = match_outlines(prev, cur, moved_by(kOutlineFrame, {-17, -9}));
     ASSERT_GT(pairs.size(), 150U);
     for (const OutlinePair& pair : pairs)
         EXPECT_LT(distance(pair.prev - pair.cur, Vec2(-35, -18)), 3.5f);
@@ -58,9 +54,11 @@ TEST(OutlineCurve, PairsCornersWithCornersWhereverTheShapeWent) {
 TEST(OutlineCurve, SlipIsNoneForTheTrueMotionAndMuchAlongAnEdge) {
     const OutlineCurve prev = outline_curve(rectangle({80, 70}, {50, 30}));
     const OutlineCurve cur = outline_curve(rectangle({115, 88}, {50, 30}));
-    EXPECT_LT(outline_slip(prev, cur, moved_by({-35, -18})), 0.01);
-    EXPECT_GT(outline_slip(prev, cur, moved_by({-15, -18})), 0.05);
-    EXPECT_EQ(outline_slip(prev, outline_curve(Matte(kFrame)), moved_by({0, 0})), 1);
+    EXPECT_LT(outline_slip(prev, cur, moved_by(kOutlineFrame, {-35, -18})), 0.01);
+    EXPECT_GT(outline_slip(prev, cur, moved_by(kOutlineFrame, {-15, -18})), 0.05);
+    EXPECT_EQ(
+        outline_slip(prev, outline_curve(Matte(kOutlineFrame)), moved_by(kOutlineFrame, {0, 0})),
+        1);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{320, 240};
+constexpr Size kShieldFrame{320, 240};
 
 // A flat shield in its own coordinates, and an arm that swings over it in the picture's.
 float shield(Vec2 q) {
@@ -33,17 +33,17 @@ struct Drawing {
 template <class F>
 Drawing draw_one(const F& material, float turn) {
     Drawing out;
-    out.extent = draw(kFrame, [&](Vec2 p) { return shield(material(p)) < 0 ? 1.0f : 0.0f; });
+    out.extent = draw(kShieldFrame, [&](Vec2 p) { return shield(material(p)) < 0 ? 1.0f : 0.0f; });
     out.visible = out.extent;
-    out.luma = draw(kFrame, [&](Vec2 p) {
+    out.luma = draw(kShieldFrame, [&](Vec2 p) {
         const Vec2 q = material(p);
         if (arm(p, turn)) return 0.8f;
         if (shield(q) > 0) return 0.3f + 0.3f * std::sin(p.x / 9);
         const bool ink = std::abs(q.y - 20) < 1.5f || std::abs(q.x - 0.2f * q.y + 25) < 1.2f;
         return ink ? 0.1f : 0.55f;
     });
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    for (int y = 0; y < kShieldFrame.height; ++y) {
+        for (int x = 0; x < kShieldFrame.width; ++x) {
             if (arm(centre_of(x, y), turn)) out.visible.at(x, y) = 0;
         }
     }
@@ -52,12 +52,12 @@ Drawing draw_one(const F& material, float turn) {
 
 // Mean error of prev_from_cur over the extent, `prev_at` saying where the material was.
 template <class F, class G>
-float mean_error(const LatticeField& field, const Drawing& cur, const F& material,
-                 const G& prev_at) {
+float mean_material_error(const LatticeField& field, const Drawing& cur, const F& material,
+                          const G& prev_at) {
     double sum = 0;
     int count = 0;
-    for (int y = 0; y < kFrame.height; y += 3) {
-        for (int x = 0; x < kFrame.width; x += 3) {
+    for (int y = 0; y < kShieldFrame.height; y += 3) {
+        for (int x = 0; x < kShieldFrame.width; x += 3) {
             if (cur.extent.at(x, y) < 128) continue;
             const Vec2 p = centre_of(x, y);
             sum += distance(p + field.at(p), prev_at(material(p)));
@@ -75,11 +75,11 @@ TEST(OutlineRegister, FollowsAFlatShapeUnderASwingingArm) {
         return Vec2((0.9976f * q.x + 0.0698f * q.y) / 1.04f, -0.0698f * q.x + 0.9976f * q.y);
     };
     const Drawing prev = draw_one(before, 0.2f), cur = draw_one(after, -0.3f);
-    const LatticeField still(kFrame, 8);
+    const LatticeField still(kShieldFrame, 8);
     const auto prev_at = [](Vec2 q) { return q + Vec2(150, 120); };
-    EXPECT_GT(mean_error(still, cur, after, prev_at), 7.0f);
+    EXPECT_GT(mean_material_error(still, cur, after, prev_at), 7.0f);
     const LatticeField found = register_outline(prev.shape(), cur.shape(), still);
-    EXPECT_LT(mean_error(found, cur, after, prev_at), 0.25f);
+    EXPECT_LT(mean_material_error(found, cur, after, prev_at), 0.25f);
 }
 
 TEST(OutlineRegister, BendsWhereNoPlaneFits) {
@@ -89,11 +89,11 @@ TEST(OutlineRegister, BendsWhereNoPlaneFits) {
         return q - Vec2(9 * std::sin(q.y / 30), 0);
     };
     const Drawing prev = draw_one(before, 0.2f), cur = draw_one(after, 0.2f);
-    const LatticeField still(kFrame, 8);
+    const LatticeField still(kShieldFrame, 8);
     const auto prev_at = [](Vec2 q) { return q + Vec2(150, 120); };
-    const float unmoved = mean_error(still, cur, after, prev_at);
+    const float unmoved = mean_material_error(still, cur, after, prev_at);
     const LatticeField found = register_outline(prev.shape(), cur.shape(), still);
-    EXPECT_LT(mean_error(found, cur, after, prev_at), 0.25f * unmoved);
+    EXPECT_LT(mean_material_error(found, cur, after, prev_at), 0.25f * unmoved);
 }
 
 TEST(OutlineRegister, FindsAShapeThatTurnedFar) {
@@ -105,13 +105,15 @@ TEST(OutlineRegister, FindsAShapeThatTurnedFar) {
     };
     const Drawing prev = draw_one(before, 0.2f), cur = draw_one(after, 0.2f);
     const auto prev_at = [](Vec2 q) { return q + Vec2(150, 120); };
-    const LatticeField still(kFrame, 8);
-    EXPECT_GT(mean_error(still, cur, after, prev_at), 40.0f);
-    EXPECT_LT(mean_error(register_outline(prev.shape(), cur.shape(), still), cur, after, prev_at),
+    const LatticeField still(kShieldFrame, 8);
+    EXPECT_GT(mean_material_error(still, cur, after, prev_at), 40.0f);
+    EXPECT_LT(mean_material_error(register_outline(prev.shape(), cur.shape(), still), cur, after,
+                                  prev_at),
               0.5f);
     // Nor is an estimate needed.
-    EXPECT_LT(mean_error(register_outline(prev.shape(), cur.shape(), 8), cur, after, prev_at),
-              0.5f);
+    EXPECT_LT(
+        mean_material_error(register_outline(prev.shape(), cur.shape(), 8), cur, after, prev_at),
+        0.5f);
 }
 
 // A flag: what bends between its corners is not where the bends were.
@@ -125,12 +127,12 @@ TEST(OutlineRegister, KeepsTheCornersOfAFlagOnItsCorners) {
     };
     const auto flag = [](const auto& material) {
         Drawing out;
-        out.extent = draw(kFrame, [&](Vec2 p) {
+        out.extent = draw(kShieldFrame, [&](Vec2 p) {
             const Vec2 q = material(p);
             return std::abs(q.x) < 95 && std::abs(q.y) < 45 ? 1.0f : 0.0f;
         });
         out.visible = out.extent;
-        out.luma = draw(kFrame, [&](Vec2 p) {
+        out.luma = draw(kShieldFrame, [&](Vec2 p) {
             const Vec2 q = material(p);
             return std::abs(q.x) < 95 && std::abs(q.y) < 45 ? 0.55f : 0.3f;
         });
@@ -141,9 +143,10 @@ TEST(OutlineRegister, KeepsTheCornersOfAFlagOnItsCorners) {
     const auto prev_at = [](Vec2 q) {
         return q + Vec2(160, 120 + kAmplitude * std::sin(q.x / 32));
     };
-    const LatticeField still(kFrame, 8);
-    EXPECT_GT(mean_error(still, cur, after, prev_at), 20.0f);
-    EXPECT_LT(mean_error(register_outline(prev.shape(), cur.shape(), still), cur, after, prev_at),
+    const LatticeField still(kShieldFrame, 8);
+    EXPECT_GT(mean_material_error(still, cur, after, prev_at), 20.0f);
+    EXPECT_LT(mean_material_error(register_outline(prev.shape(), cur.shape(), still), cur, after,
+                                  prev_at),
               4.0f);
 }
 
@@ -165,8 +168,8 @@ TEST(OutlineRegister, AShapeServesSeveralThreads) {
 }
 
 TEST(OutlineRegister, WithoutAShapeNothingIsChanged) {
-    const Matte empty(kFrame);
-    LatticeField initial(kFrame, 8);
+    const Matte empty(kShieldFrame);
+    LatticeField initial(kShieldFrame, 8);
     initial.set_node(5, 5, {1, 2});
     const LatticeField out = register_outline(OutlineShape({empty, empty, empty}),
                                               OutlineShape({empty, empty, empty}), initial);

@@ -9,16 +9,16 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{203, 141};
+constexpr Size kPatchFrame{203, 141};
 
-Matte moved_texture(Vec2 by, float lift = 0, float scale = 1) {
+Matte changed_texture(Vec2 by, float lift = 0, float scale = 1) {
     const WaveTexture texture(3);
-    return draw(kFrame, [&](Vec2 p) { return texture((p - by) / scale) + lift; });
+    return draw(kPatchFrame, [&](Vec2 p) { return texture((p - by) / scale) + lift; });
 }
 
 // The mean error over the picture's middle.
 double error_of(const FlowField& flow, Vec2 truth) {
-    const Recti inner = rect_of(kFrame).grown(-24);
+    const Recti inner = rect_of(kPatchFrame).grown(-24);
     double sum = 0;
     for (int y = inner.y0; y < inner.y1; ++y) {
         for (int x = inner.x0; x < inner.x1; ++x) {
@@ -30,7 +30,7 @@ double error_of(const FlowField& flow, Vec2 truth) {
 }
 
 TEST(PatchSearch, InstructionSetsGiveTheSameBits) {
-    const Matte a = moved_texture({0, 0}), b = moved_texture({5.3f, -2.6f});
+    const Matte a = changed_texture({0, 0}), b = changed_texture({5.3f, -2.6f});
     for (const FlowQuality quality : {FlowQuality::kDraft, FlowQuality::kFinal}) {
         force_isa(Isa::kScalar);
         const FlowField scalar = estimate_flow(a, b, quality);
@@ -40,7 +40,7 @@ TEST(PatchSearch, InstructionSetsGiveTheSameBits) {
 }
 
 TEST(PatchSearch, BothDirectionsAreThoseOfEachAlone) {
-    const Matte a = moved_texture({0, 0}), b = moved_texture({3, 1});
+    const Matte a = changed_texture({0, 0}), b = changed_texture({3, 1});
     const FlowPair both = estimate_flows(a, b, FlowQuality::kFinal);
     EXPECT_EQ(both.b_from_a.d, estimate_flow(a, b, FlowQuality::kFinal).d);
     EXPECT_EQ(both.a_from_b.d, estimate_flow(b, a, FlowQuality::kFinal).d);
@@ -48,20 +48,20 @@ TEST(PatchSearch, BothDirectionsAreThoseOfEachAlone) {
 
 TEST(PatchSearch, FindsLargeMotion) {
     const Vec2 by(24.4f, -11.3f);
-    const FlowField found =
-        estimate_flow(moved_texture({0, 0}, 0, 4), moved_texture(by, 0, 4), FlowQuality::kFinal);
+    const FlowField found = estimate_flow(changed_texture({0, 0}, 0, 4), changed_texture(by, 0, 4),
+                                          FlowQuality::kFinal);
     EXPECT_LT(error_of(found, by), 0.3);
 }
 
 TEST(PatchSearch, DoesNotMindAChangeOfLight) {
     const Vec2 by(2.2f, 1.4f);
     const FlowField found =
-        estimate_flow(moved_texture({0, 0}), moved_texture(by, -0.15f), FlowQuality::kFinal);
+        estimate_flow(changed_texture({0, 0}), changed_texture(by, -0.15f), FlowQuality::kFinal);
     EXPECT_LT(error_of(found, by), 0.1);
 }
 
 TEST(PatchSearch, WhatShowsNothingDoesNotMove) {
-    const Matte grey(kFrame, 128);
+    const Matte grey(kPatchFrame, 128);
     EXPECT_EQ(error_of(estimate_flow(grey, grey, FlowQuality::kFinal), {0, 0}), 0.0);
 }
 

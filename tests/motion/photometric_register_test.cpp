@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{320, 200};
+constexpr Size kRegisteredFrame{320, 200};
 using Map = std::function<Vec2(Vec2)>;  // anchor position of a frame position
 
 Vec2 plane(Vec2 p) {
@@ -32,18 +32,18 @@ struct Pair {
 Pair pair(const Map& map, bool shadow) {
     const WaveTexture texture(3);
     Pair out;
-    out.anchor = draw(kFrame, [&](Vec2 p) { return 0.15f + 0.7f * texture(p); });
-    out.frame = draw(kFrame, [&](Vec2 p) {
+    out.anchor = draw(kRegisteredFrame, [&](Vec2 p) { return 0.15f + 0.7f * texture(p); });
+    out.frame = draw(kRegisteredFrame, [&](Vec2 p) {
         const float light = shadow && p.x + 0.5f * p.y > 190 ? 0.55f : 1.0f;
         return light * (0.15f + 0.7f * texture(map(p)));
     });
-    out.visible = Matte(kFrame, 255);
+    out.visible = Matte(kRegisteredFrame, 255);
     return out;
 }
 
 // The truth plus `error` by place.
-LatticeField field_of(const Map& map, const std::function<Vec2(Vec2)>& error) {
-    LatticeField field(kFrame, 8);
+LatticeField field_with_error(const Map& map, const std::function<Vec2(Vec2)>& error) {
+    LatticeField field(kRegisteredFrame, 8);
     for (int j = 0; j < field.nodes().height(); ++j) {
         for (int i = 0; i < field.nodes().width(); ++i) {
             const Vec2 p = field.node_position(i, j);
@@ -53,14 +53,14 @@ LatticeField field_of(const Map& map, const std::function<Vec2(Vec2)>& error) {
     return field;
 }
 LatticeField exactly(const Map& map) {
-    return field_of(map, [](Vec2) { return Vec2(0); });
+    return field_with_error(map, [](Vec2) { return Vec2(0); });
 }
 // With an error of about a pixel, as a chain leaves it.
 LatticeField roughly(const Map& map) {
-    return field_of(map, [](Vec2 p) { return Vec2(0.7f, -0.6f + p.x / 400.0f); });
+    return field_with_error(map, [](Vec2 p) { return Vec2(0.7f, -0.6f + p.x / 400.0f); });
 }
 
-float mean_error(const LatticeField& field, const Map& map, const Recti& area) {
+float mean_map_error(const LatticeField& field, const Map& map, const Recti& area) {
     double sum = 0;
     for (int y = area.y0; y < area.y1; ++y) {
         for (int x = area.x0; x < area.x1; ++x) {
@@ -81,8 +81,8 @@ TEST(RegisterPlanar, FindsAPlaneThroughAShadow) {
             register_planar(registration_picture(p.anchor, p.visible),
                             registration_picture(p.frame, p.visible), start, {});
         ASSERT_TRUE(found.found);
-        EXPECT_GT(mean_error(start, plane, kInner), 0.7f);
-        EXPECT_LT(mean_error(found.anchor_from_cur, plane, kInner), 0.03f) << shadow;
+        EXPECT_GT(mean_map_error(start, plane, kInner), 0.7f);
+        EXPECT_LT(mean_map_error(found.anchor_from_cur, plane, kInner), 0.03f) << shadow;
         EXPECT_GT(found.fit.share, 0.8);
     }
 }
@@ -93,13 +93,13 @@ Pair faint_pair(std::uint64_t seed) {
     Pair out;
     const auto seen = [&](const Map& map, std::uint64_t stream) {
         Rng rng(seed, stream, 0);
-        return draw(kFrame, [&](Vec2 p) {
+        return draw(kRegisteredFrame, [&](Vec2 p) {
             return 0.5f + 0.08f * texture(map(p)) + 0.03f * static_cast<float>(rng.uniform() - 0.5);
         });
     };
     out.anchor = seen([](Vec2 p) { return p; }, 1);
     out.frame = seen(plane, 2);
-    out.visible = Matte(kFrame, 255);
+    out.visible = Matte(kRegisteredFrame, 255);
     return out;
 }
 
@@ -113,8 +113,9 @@ TEST(RefinePlanar, ComparesMorePixelsOfAFaintSurface) {
         const RegistrationPicture cur = registration_picture(p.frame, p.visible);
         const PlanarRegistration found = register_planar(anchor, cur, roughly(plane), few);
         ASSERT_TRUE(found.found);
-        before += mean_error(found.anchor_from_cur, plane, kInner);
-        after += mean_error(refine_planar(anchor, cur, found.anchor_from_cur, few), plane, kInner);
+        before += mean_map_error(found.anchor_from_cur, plane, kInner);
+        after +=
+            mean_map_error(refine_planar(anchor, cur, found.anchor_from_cur, few), plane, kInner);
     }
     EXPECT_LT(after, 0.5f * before);
 }
@@ -144,7 +145,7 @@ TEST(RegisterLattice, FollowsFolds) {
         const LatticeField field =
             register_lattice(registration_picture(p.anchor, p.visible),
                              registration_picture(p.frame, p.visible), roughly(folded), {});
-        EXPECT_LT(mean_error(field, folded, kInner), 0.08f) << shadow;
+        EXPECT_LT(mean_map_error(field, folded, kInner), 0.08f) << shadow;
     }
 }
 
@@ -163,13 +164,13 @@ TEST(RegisterLattice, ABlankPlaceFollowsItsSurroundings) {
         register_lattice(registration_picture(p.anchor, p.visible),
                          registration_picture(p.frame, p.visible), start, {});
     const Recti middle{145, 90, 175, 110};
-    EXPECT_GT(mean_error(start, shift, middle), 0.7f);
-    EXPECT_LT(mean_error(field, shift, middle), 0.25f);
+    EXPECT_GT(mean_map_error(start, shift, middle), 0.7f);
+    EXPECT_LT(mean_map_error(field, shift, middle), 0.25f);
 }
 
 TEST(Registration, WithoutARegionLeavesTheField) {
     const Pair p = pair(plane, false);
-    const RegistrationPicture nothing = registration_picture(p.anchor, Matte(kFrame));
+    const RegistrationPicture nothing = registration_picture(p.anchor, Matte(kRegisteredFrame));
     const RegistrationPicture cur = registration_picture(p.frame, p.visible);
     const LatticeField start = roughly(plane);
     EXPECT_FALSE(register_planar(nothing, cur, start, {}).found);

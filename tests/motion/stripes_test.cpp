@@ -9,10 +9,10 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{200, 140};
+constexpr Size kStripesFrame{200, 140};
 
 Matte whole() {
-    Matte out(kFrame);
+    Matte out(kStripesFrame);
     std::fill(out.data(), out.data() + out.size_bytes(), std::uint8_t{255});
     return out;
 }
@@ -20,7 +20,7 @@ Matte whole() {
 Matte lines(float angle_rad, float second = 0) {
     Rng rng(4);
     const Vec2 across(std::cos(angle_rad), std::sin(angle_rad)), along(-across.y, across.x);
-    return draw(kFrame, [&](Vec2 p) {
+    return draw(kStripesFrame, [&](Vec2 p) {
         const float noise = static_cast<float>(rng.uniform() - 0.5) * 4 / 255;
         return 0.5f + 0.2f * std::sin((p.x * across.x + p.y * across.y) / 3) +
                second * std::sin((p.x * along.x + p.y * along.y) / 3) + noise;
@@ -39,13 +39,13 @@ TEST(Stripes, TheirDirectionIsFound) {
 TEST(Stripes, StructureInTwoDirectionsIsNone) {
     EXPECT_EQ(stripes_of(lines(0.3f, 0.15f), whole()).share, 0);
     const WaveTexture texture(3);
-    EXPECT_EQ(stripes_of(draw(kFrame, texture), whole()).share, 0);
-    EXPECT_EQ(stripes_of(Matte(kFrame), whole()).share, 0) << "a flat fill";
+    EXPECT_EQ(stripes_of(draw(kStripesFrame, texture), whole()).share, 0);
+    EXPECT_EQ(stripes_of(Matte(kStripesFrame), whole()).share, 0) << "a flat fill";
 }
 
 TEST(Stripes, BandsOfShadeAreNotPaint) {
     const WaveTexture texture(3);
-    const Matte shaded = draw(kFrame, [&](Vec2 p) {
+    const Matte shaded = draw(kStripesFrame, [&](Vec2 p) {
         return (0.5f + 0.05f * (texture(p) - 0.5f)) * (1 + 0.5f * std::sin(p.y / 14));
     });
     EXPECT_GT(stripes_of(shaded, whole()).share, 0.5f);
@@ -56,22 +56,22 @@ TEST(Stripes, BandsOfShadeAreNotPaint) {
 }
 
 TEST(Stripes, AMattesEdgeIsNoStructure) {
-    Matte matte(kFrame);
+    Matte matte(kStripesFrame);
     for (int y = 30; y < 90; ++y)
         for (int x = 40; x < 160; ++x)
             matte.at(x, y) = 255;
     Matte luma = lines(0);
-    for (int y = 0; y < kFrame.height; ++y)
-        for (int x = 0; x < kFrame.width; ++x)
+    for (int y = 0; y < kStripesFrame.height; ++y)
+        for (int x = 0; x < kStripesFrame.width; ++x)
             if (matte.at(x, y) == 0) luma.at(x, y) = 255;
     EXPECT_EQ(stripes_of(luma, matte).share, 1);
 }
 
 TEST(Stripes, OnlyTheMotionAlongThemIsTakenFromTheOutline) {
-    LatticeField field(kFrame, 8), outline(kFrame, 8);
-    Matte above(kFrame);
+    LatticeField field(kStripesFrame, 8), outline(kStripesFrame, 8);
+    Matte above(kStripesFrame);
     for (int y = 0; y < 90; ++y)
-        std::fill(above.row(y), above.row(y) + kFrame.width, std::uint8_t{255});
+        std::fill(above.row(y), above.row(y) + kStripesFrame.width, std::uint8_t{255});
     for (int j = 0; j < field.nodes().height(); ++j) {
         for (int i = 0; i < field.nodes().width(); ++i) {
             field.set_node(i, j, {3, 0});
@@ -90,7 +90,7 @@ TEST(Stripes, OnlyTheMotionAlongThemIsTakenFromTheOutline) {
 }
 
 LatticeField uniform(Vec2 d) {
-    LatticeField out(kFrame, 8);
+    LatticeField out(kStripesFrame, 8);
     for (int j = 0; j < out.nodes().height(); ++j) {
         for (int i = 0; i < out.nodes().width(); ++i)
             out.set_node(i, j, d);
@@ -100,9 +100,9 @@ LatticeField uniform(Vec2 d) {
 
 // A region with upright stripes whose lower edge shows.
 Matte with_lower_edge() {
-    Matte out(kFrame);
+    Matte out(kStripesFrame);
     for (int y = 0; y < 90; ++y)
-        std::fill(out.row(y), out.row(y) + kFrame.width, std::uint8_t{255});
+        std::fill(out.row(y), out.row(y) + kStripesFrame.width, std::uint8_t{255});
     return out;
 }
 constexpr Stripes kUpright{{0, 1}, 1};
@@ -115,7 +115,7 @@ TEST(Stripes, HowFarAMotionLeavesTheOutlineIsTold) {
     };
     EXPECT_NEAR(departs({4, 11}, region), 10, 0.3f);
     EXPECT_NEAR(departs({4, 1}, region), 0, 0.1f) << "across them the picture tells";
-    EXPECT_EQ(departs({4, 11}, Matte(kFrame)), 0) << "nothing is visible";
+    EXPECT_EQ(departs({4, 11}, Matte(kStripesFrame)), 0) << "nothing is visible";
 }
 
 TEST(Stripes, WhatSlidesFarAlongThemIsHeldByTheOutline) {

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{320, 200};
+constexpr Size kFittedFrame{320, 200};
 using Motion = std::function<Vec2(Vec2)>;
 
 float gaussian(Rng& rng) {
@@ -20,9 +20,9 @@ float gaussian(Rng& rng) {
 // `truth` with Gaussian noise of `noise_px` and a share of outliers of up to 15 px.
 ImageF2 observed(const Motion& truth, float noise_px, double outliers) {
     Rng rng(11);
-    ImageF2 flow(kFrame);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    ImageF2 flow(kFittedFrame);
+    for (int y = 0; y < kFittedFrame.height; ++y) {
+        for (int x = 0; x < kFittedFrame.width; ++x) {
             const Vec2 d = truth(centre_of(x, y));
             const bool wrong = rng.uniform() < outliers;
             float* f = flow.pixel(x, y);
@@ -55,22 +55,22 @@ Errors errors(const LatticeField& field, const Motion& truth, const Recti& area)
     return out;
 }
 
-Vec2 affine(Vec2 p) {
+Vec2 affine_motion(Vec2 p) {
     return {4.0f + 0.02f * p.x - 0.01f * p.y, -2.0f + 0.015f * p.x + 0.01f * p.y};
 }
 
-Vec2 quadratic(Vec2 p) {
+Vec2 quadratic_motion(Vec2 p) {
     const Vec2 q = (p - Vec2(160, 100)) / 160.0f;
-    return affine(p) + Vec2(2.0f * q.x * q.x - q.x * q.y, 1.5f * q.y * q.y + q.x * q.y);
+    return affine_motion(p) + Vec2(2.0f * q.x * q.x - q.x * q.y, 1.5f * q.y * q.y + q.x * q.y);
 }
 
-const Matte kEverywhere(kFrame, 255);
+const Matte kEverywhere(kFittedFrame, 255);
 
 TEST(SurfaceFit, FindsSmoothMotionThroughNoiseAndOutliers) {
-    for (const Motion& truth : {Motion(affine), Motion(quadratic)}) {
+    for (const Motion& truth : {Motion(affine_motion), Motion(quadratic_motion)}) {
         const LatticeField field = fit_surface_motion(observed(truth, 0.3f, 0.2), kEverywhere, {});
-        EXPECT_EQ(field.full_size(), kFrame);
-        const Errors e = errors(field, truth, rect_of(kFrame));
+        EXPECT_EQ(field.full_size(), kFittedFrame);
+        const Errors e = errors(field, truth, rect_of(kFittedFrame));
         EXPECT_LT(e.mean, 0.03f);
         EXPECT_LT(e.worst, 0.15f);
     }
@@ -81,20 +81,21 @@ TEST(SurfaceFit, FollowsExactMotionClosely) {
     options.correlation_px = 1;
     options.noise_floor_px = 0.005f;
     const Motion truth = [](Vec2 p) {
-        return affine(p) + Vec2(std::sin(p.x / 15), std::cos(p.y / 12));
+        return affine_motion(p) + Vec2(std::sin(p.x / 15), std::cos(p.y / 12));
     };
     EXPECT_LT(errors(fit_surface_motion(observed(truth, 0, 0), kEverywhere, options), truth,
-                     rect_of(kFrame).grown(-8))
+                     rect_of(kFittedFrame).grown(-8))
                   .mean,
               0.12f);  // of waves of 0.9 px on average
 }
 
 TEST(SurfaceFit, FollowsTheFoldsOfCloth) {
     const Motion cloth = [](Vec2 p) {
-        return affine(p) + Vec2(2.0f * std::sin(p.x / 18), 1.5f * std::sin(p.y / 16 + p.x / 40));
+        return affine_motion(p) +
+               Vec2(2.0f * std::sin(p.x / 18), 1.5f * std::sin(p.y / 16 + p.x / 40));
     };
     const Errors e = errors(fit_surface_motion(observed(cloth, 0.3f, 0.05), kEverywhere, {}), cloth,
-                            rect_of(kFrame).grown(-10));
+                            rect_of(kFittedFrame).grown(-10));
     EXPECT_LT(e.mean, 0.25f);  // the folds themselves are 1.9 px on average
 }
 
@@ -102,11 +103,11 @@ TEST(SurfaceFit, FollowsABumpOfCloth) {
     const Vec2 top(150, 100);
     const Motion bump = [&](Vec2 p) {
         const float r = distance(p, top) / 60.0f;
-        return affine(p) + Vec2(0, -4.0f * std::exp(-0.5f * r * r));
+        return affine_motion(p) + Vec2(0, -4.0f * std::exp(-0.5f * r * r));
     };
     const LatticeField field = fit_surface_motion(observed(bump, 0.3f, 0.05), kEverywhere, {});
     EXPECT_LT(distance(field.at(top), bump(top)), 0.4f);
-    EXPECT_LT(errors(field, bump, rect_of(kFrame)).mean, 0.2f);
+    EXPECT_LT(errors(field, bump, rect_of(kFittedFrame)).mean, 0.2f);
 }
 
 TEST(SurfaceFit, DoesNotFollowAMovingShadow) {
@@ -114,11 +115,11 @@ TEST(SurfaceFit, DoesNotFollowAMovingShadow) {
     const Recti shadow{60, 60, 140, 140};
     const Motion seen = [&](Vec2 p) {
         const bool in = shadow.contains(static_cast<int>(p.x), static_cast<int>(p.y));
-        return affine(p) + (in ? Vec2(3, 0) : Vec2(0));
+        return affine_motion(p) + (in ? Vec2(3, 0) : Vec2(0));
     };
     const LatticeField field = fit_surface_motion(observed(seen, 0.15f, 0), kEverywhere, {});
-    EXPECT_LT(errors(field, affine, shadow).mean, 0.3f);
-    EXPECT_LT(errors(field, affine, rect_of(kFrame)).mean, 0.1f);
+    EXPECT_LT(errors(field, affine_motion, shadow).mean, 0.3f);
+    EXPECT_LT(errors(field, affine_motion, rect_of(kFittedFrame)).mean, 0.1f);
 }
 
 TEST(SurfaceFit, GoesOnBehindAHoleAndBeyondTheRegion) {
@@ -126,33 +127,36 @@ TEST(SurfaceFit, GoesOnBehindAHoleAndBeyondTheRegion) {
     const Recti hole{90, 50, 150, 140};
     const Motion seen = [&](Vec2 p) {
         const bool in = hole.contains(static_cast<int>(p.x), static_cast<int>(p.y));
-        return in || p.x > 240 ? Vec2(-9, 7) : affine(p);
+        return in || p.x > 240 ? Vec2(-9, 7) : affine_motion(p);
     };
-    Matte weights(kFrame, 255);
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    Matte weights(kFittedFrame, 255);
+    for (int y = 0; y < kFittedFrame.height; ++y) {
+        for (int x = 0; x < kFittedFrame.width; ++x) {
             if (hole.contains(x, y) || x >= 240) weights.at(x, y) = 0;
         }
     }
     const LatticeField field = fit_surface_motion(observed(seen, 0.2f, 0.05), weights, {});
-    EXPECT_LT(errors(field, affine, hole).worst, 0.15f);
-    EXPECT_LT(errors(field, affine, {240, 20, 300, 180}).worst, 0.3f);
+    EXPECT_LT(errors(field, affine_motion, hole).worst, 0.15f);
+    EXPECT_LT(errors(field, affine_motion, {240, 20, 300, 180}).worst, 0.3f);
 }
 
 TEST(SurfaceFit, WithoutWeightThereIsNoMotion) {
-    const LatticeField field = fit_surface_motion(observed(affine, 0, 0), Matte(kFrame), {});
-    EXPECT_EQ(field.full_size(), kFrame);
-    EXPECT_EQ(field.nodes(), LatticeField(kFrame, SurfaceFitOptions{}.spacing_px).nodes());
+    const LatticeField field =
+        fit_surface_motion(observed(affine_motion, 0, 0), Matte(kFittedFrame), {});
+    EXPECT_EQ(field.full_size(), kFittedFrame);
+    EXPECT_EQ(field.nodes(), LatticeField(kFittedFrame, SurfaceFitOptions{}.spacing_px).nodes());
 }
 
 TEST(SurfaceFit, LeavesOutMotionThatIsNotANumber) {
-    ImageF2 flow = observed(affine, 0.1f, 0);
+    ImageF2 flow = observed(affine_motion, 0.1f, 0);
     for (int y = 20; y < 60; ++y) {
         for (int x = 20; x < 90; ++x)
             flow.at(x, y, x % 2) = std::numeric_limits<float>::quiet_NaN();
     }
-    EXPECT_LT(errors(fit_surface_motion(flow, kEverywhere, {}), affine, rect_of(kFrame)).worst,
-              0.15f);
+    EXPECT_LT(
+        errors(fit_surface_motion(flow, kEverywhere, {}), affine_motion, rect_of(kFittedFrame))
+            .worst,
+        0.15f);
 }
 
 TEST(SurfaceFit, TakesTheSmallestRegions) {

@@ -17,14 +17,6 @@ RegionPlan region_from(std::vector<int> references) {
     return region;
 }
 
-void expect_ok(const Status& status) {
-    EXPECT_TRUE(status) << (status ? "" : status.error().text());
-}
-
-void analyse(const ShotSource& shot, const ShotPlan& plan, AnalysisStore& store) {
-    expect_ok(analyse_shot(shot, plan, store, {}, {}));
-}
-
 // Mean distance inside the region from where the wall's points were on the reference frame.
 float coords_error(const AnalysisStore& store, int frame, int reference) {
     const LatticeField field = stored_coords(store, frame);

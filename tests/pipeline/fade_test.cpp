@@ -50,12 +50,6 @@ std::vector<double> levels(const MemoryShot& shot, RegionPlan region, int frames
     return out;
 }
 
-RegionPlan plate_lit() {
-    RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
-    region.light_source = LightSource::kPlate;
-    return region;
-}
-
 TEST(Fade, TheTextureGoesToBlackWithThePlate) {
     const std::vector<float> gains{1, 0.5f, 0.2f, 0.05f, 0};
     const std::vector<double> seen = levels(faded(gains), plate_lit(), 5);

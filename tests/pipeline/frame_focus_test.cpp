@@ -14,10 +14,10 @@
 namespace weft {
 namespace {
 
-constexpr int kFrame = 1;
+constexpr int kFocusFrame = 1;
 
 // Stripes of two greys, 12 px wide, with one blur or with one that differs from stripe to stripe.
-MemoryShot striped_wall(float blur_px, float differing_by_px) {
+MemoryShot unevenly_striped_wall(float blur_px, float differing_by_px) {
     MemoryShot shot(kShotSize);
     auto plate = std::make_shared<ImageF3>(kShotSize);
     for (int y = 0; y < kShotSize.height; ++y) {
@@ -31,8 +31,8 @@ MemoryShot striped_wall(float blur_px, float differing_by_px) {
             std::fill_n(plate->pixel(x, y), 3, linear_to_srgb(v * v));
         }
     }
-    shot.plates[kFrame] = std::move(plate);
-    shot.mattes[{0, kFrame}] = box_matte(kRegionBox);
+    shot.plates[kFocusFrame] = std::move(plate);
+    shot.mattes[{0, kFocusFrame}] = box_matte(kRegionBox);
     return shot;
 }
 
@@ -43,19 +43,19 @@ RegionPlan checked_region() {
     for (int k = 0; k < 256; ++k)
         std::fill_n(texture->pixels.data() + 3 * k, 3, (k / 4 + k / 64) % 2 == 0 ? 0.4f : 0.7f);
     RegionPlan region = make_region(std::move(texture));
-    region.focus_frames = {kFrame};
+    region.focus_frames = {kFocusFrame};
     return region;
 }
 
 // Energy of the texture's gradients down the stripes, where the plate has none.
 double detail(const MemoryShot& shot, const RegionPlan& region) {
-    const ShotPlan plan = make_plan(region, kFrame, kFrame);
+    const ShotPlan plan = make_plan(region, kFocusFrame, kFocusFrame);
     MemoryAnalysisStore store;
     EXPECT_TRUE(analyse_shot(shot, plan, store, {}, {}));
     auto scene = make_scene(shot, plan, store, 0, {}, {});
     EXPECT_TRUE(scene);
     const std::vector<RegionScene> scenes{std::move(*scene)};
-    const auto frame = render_frame(shot, plan, scenes, store, *make_cpu_backend(), kFrame);
+    const auto frame = render_frame(shot, plan, scenes, store, *make_cpu_backend(), kFocusFrame);
     EXPECT_TRUE(frame);
     double sum = 0;
     for (int y = kRegionBox.y0 + 6; y < kRegionBox.y1 - 6; ++y) {
@@ -77,19 +77,19 @@ double left(const MemoryShot& shot, RegionPlan region) {
 }
 
 TEST(FrameFocus, ATextureIsAsSoftAsThePaintOfThePlate) {
-    EXPECT_LT(left(striped_wall(1.8f, 0), checked_region()), 0.5);
-    EXPECT_NEAR(left(striped_wall(0.2f, 0), checked_region()), 1, 0.02);
+    EXPECT_LT(left(unevenly_striped_wall(1.8f, 0), checked_region()), 0.5);
+    EXPECT_NEAR(left(unevenly_striped_wall(0.2f, 0), checked_region()), 1, 0.02);
 }
 
 TEST(FrameFocus, ThePenumbraOfAShadowIsNoFocus) {
     RegionPlan region = checked_region();
     region.light_source = LightSource::kPlate;
     region.detail = 1;  // all that the plate shows is light
-    EXPECT_NEAR(left(striped_wall(1.8f, 0), region), 1, 0.02);
+    EXPECT_NEAR(left(unevenly_striped_wall(1.8f, 0), region), 1, 0.02);
 }
 
 TEST(FrameFocus, BlursThatDifferAreNotThoseOfOneLens) {
-    EXPECT_NEAR(left(striped_wall(0.7f, 1), checked_region()), 1, 0.05);
+    EXPECT_NEAR(left(unevenly_striped_wall(0.7f, 1), checked_region()), 1, 0.05);
 }
 
 }  // namespace

@@ -15,8 +15,7 @@
 namespace weft {
 namespace {
 
-constexpr int kFrame = 5;
-constexpr Recti kZoneBox{40, 30, 90, 70};
+constexpr int kLitFrame = 5;
 constexpr Vec2i kInZone{60, 50}, kBeside{120, 80};
 
 class Wall : public MemoryShot {
@@ -39,12 +38,6 @@ RegionPlan lamp_lit() {
     return region;
 }
 
-RegionPlan plate_lit() {
-    RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
-    region.light_source = LightSource::kPlate;
-    return region;
-}
-
 RenderedFrame frame_of(const MemoryShot& shot, const ShotPlan& plan) {
     MemoryAnalysisStore store;
     const Status done = analyse_shot(shot, plan, store, {}, {});
@@ -52,13 +45,13 @@ RenderedFrame frame_of(const MemoryShot& shot, const ShotPlan& plan) {
     auto scene = make_scene(shot, plan, store, 0, {}, {});
     EXPECT_TRUE(scene) << (scene ? "" : scene.error().text());
     const std::vector<RegionScene> scenes{std::move(*scene)};
-    auto frame = render_frame(shot, plan, scenes, store, *make_cpu_backend(), kFrame);
+    auto frame = render_frame(shot, plan, scenes, store, *make_cpu_backend(), kLitFrame);
     EXPECT_TRUE(frame) << (frame ? "" : frame.error().text());
     return std::move(*frame);
 }
 
-ImageF3 rendered(const RegionPlan& region) {
-    return frame_of(Wall(), make_plan(region, kFrame, kFrame)).pixels;
+ImageF3 rendered_wall(const RegionPlan& region) {
+    return frame_of(Wall(), make_plan(region, kLitFrame, kLitFrame)).pixels;
 }
 
 float linear_at(const ImageF3& picture, Vec2i at, int channel = 1) {
@@ -68,11 +61,11 @@ float linear_at(const ImageF3& picture, Vec2i at, int channel = 1) {
 // The texture's own light is that of the reference: without strength there is no gain.
 TEST(FrameLight, AStrengthAboveOneRaisesTheContrast) {
     RegionPlan region = lamp_lit();
-    const float once = linear_at(rendered(region), kBeside);
+    const float once = linear_at(rendered_wall(region), kBeside);
     region.light.strength = 0;
-    const float none = linear_at(rendered(region), kBeside);
+    const float none = linear_at(rendered_wall(region), kBeside);
     region.light.strength = 1.5f;
-    const float more = linear_at(rendered(region), kBeside);
+    const float more = linear_at(rendered_wall(region), kBeside);
     ASSERT_GT(once, 1.05f * none);
     EXPECT_NEAR(std::log(more / none), 1.5f * std::log(once / none), 0.02f);
 }
@@ -89,7 +82,7 @@ TEST(FrameLight, LightDetailGoesFromBroadLightToAllThatThePlateShows) {
     RegionPlan region = plate_lit();
     const auto detail = [&](float amount) {
         region.detail = amount;
-        return detail_of(rendered(region), 30, 130, 60);
+        return detail_of(rendered_wall(region), 30, 130, 60);
     };
     const float broad = detail(0), estimated = detail(0.5f), all = detail(1);
     EXPECT_LT(broad, estimated);
@@ -98,11 +91,11 @@ TEST(FrameLight, LightDetailGoesFromBroadLightToAllThatThePlateShows) {
 
 TEST(FrameLight, AZoneSaysWhatIsLightAndWhatIsPaint) {
     RegionPlan region = plate_lit();
-    const ImageF3 before = rendered(region);
+    const ImageF3 before = rendered_wall(region);
     region.zones = {detail_zone(1)};
-    const ImageF3 light = rendered(region);
+    const ImageF3 light = rendered_wall(region);
     region.zones = {detail_zone(1), detail_zone(0)};
-    const ImageF3 paint = rendered(region);
+    const ImageF3 paint = rendered_wall(region);
     const auto inside = [](const ImageF3& p) { return detail_of(p, 42, 88, 50); };
     EXPECT_GT(inside(light), 1.3f * inside(before));
     EXPECT_LT(inside(paint), inside(before)) << "the last one counts";
@@ -111,23 +104,23 @@ TEST(FrameLight, AZoneSaysWhatIsLightAndWhatIsPaint) {
 
 TEST(FrameLight, KeptDetailIsAFactorOfItsOwn) {
     RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
-    const float flat = detail_of(rendered(region), 30, 130, 60);
+    const float flat = detail_of(rendered_wall(region), 30, 130, 60);
     EXPECT_LT(flat, 1e-3f);
     region.keep_detail = 1;
-    EXPECT_GT(detail_of(rendered(region), 30, 130, 60), 0.5f) << "without any light";
+    EXPECT_GT(detail_of(rendered_wall(region), 30, 130, 60), 0.5f) << "without any light";
 }
 
 TEST(FrameLight, GlossIsALayerOfItsOwn) {
     Wall shot;
-    auto plate = std::make_shared<ImageF3>(*shot.plates.at(kFrame));
+    auto plate = std::make_shared<ImageF3>(*shot.plates.at(kLitFrame));
     for (int k = 0; k < 9; ++k)
         std::fill_n(plate->pixel(kBeside.x + k % 3, kBeside.y + k / 3), 3, 4.0f);
-    shot.plates[kFrame] = std::move(plate);
+    shot.plates[kLitFrame] = std::move(plate);
     RegionPlan region = plate_lit();
     region.detail = 0;  // the spot is not in the light
     region.highlights = 1;
     region.keep_detail = 0.5f;
-    ShotPlan plan = make_plan(region, kFrame, kFrame);
+    ShotPlan plan = make_plan(region, kLitFrame, kLitFrame);
     plan.layers = true;
     const RenderedFrame frame = frame_of(shot, plan);
     ASSERT_TRUE(frame.layers);
@@ -143,38 +136,39 @@ TEST(FrameLight, GlossIsALayerOfItsOwn) {
 
 TEST(FrameLight, TheGradeAndTheMatchAreOnTheTexture) {
     RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
-    const float before = linear_at(rendered(region), kBeside);
+    const float before = linear_at(rendered_wall(region), kBeside);
     region.grade.exposure = -1;
     region.grade.multiply = {1, 0.5f, 1};
-    EXPECT_NEAR(linear_at(rendered(region), kBeside), before / 4, 1e-3f);
-    EXPECT_NEAR(linear_at(rendered(region), kBeside, 0), before / 2, 1e-3f);
+    EXPECT_NEAR(linear_at(rendered_wall(region), kBeside), before / 4, 1e-3f);
+    EXPECT_NEAR(linear_at(rendered_wall(region), kBeside, 0), before / 2, 1e-3f);
     region.grade = {};
     region.match = 1;
-    const float matched = linear_at(rendered(region), kBeside);
+    const float matched = linear_at(rendered_wall(region), kBeside);
     region.match = 0.5f;
     EXPECT_NE(matched, before);
-    EXPECT_NEAR(linear_at(rendered(region), kBeside), std::sqrt(before * matched), 2e-3f);
+    EXPECT_NEAR(linear_at(rendered_wall(region), kBeside), std::sqrt(before * matched), 2e-3f);
 }
 
 TEST(FrameLight, OpacityAndBlendModeGoOverTheOldSurface) {
     RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
     const Wall shot;
-    const float plate = srgb_to_linear(shot.plates.at(kFrame)->pixel(kBeside.x, kBeside.y)[1]);
-    const float texture = linear_at(rendered(region), kBeside);
+    const float plate = srgb_to_linear(shot.plates.at(kLitFrame)->pixel(kBeside.x, kBeside.y)[1]);
+    const float texture = linear_at(rendered_wall(region), kBeside);
     region.opacity = 0.25f;
-    EXPECT_NEAR(linear_at(rendered(region), kBeside), plate + 0.25f * (texture - plate), 1e-3f);
+    EXPECT_NEAR(linear_at(rendered_wall(region), kBeside), plate + 0.25f * (texture - plate),
+                1e-3f);
     region.opacity = 1;
     region.blend_mode = BlendMode::kMultiply;
-    EXPECT_NEAR(linear_at(rendered(region), kBeside), plate * texture, 1e-3f);
+    EXPECT_NEAR(linear_at(rendered_wall(region), kBeside), plate * texture, 1e-3f);
 }
 
 TEST(FrameLight, DetailIsEmptyWhereItIsAsEstimated) {
     const Wall shot;
     const MemoryAnalysisStore store;
     RegionPlan region = plate_lit();
-    EXPECT_TRUE(light_detail(shot, make_plan(region), store, 0, kFrame)->empty());
+    EXPECT_TRUE(light_detail(shot, make_plan(region), store, 0, kLitFrame)->empty());
     region.zones = {detail_zone(3)};
-    const auto found = light_detail(shot, make_plan(region), store, 0, kFrame);
+    const auto found = light_detail(shot, make_plan(region), store, 0, kLitFrame);
     ASSERT_TRUE(found) << found.error().text();
     EXPECT_EQ(found->at(kInZone.x, kInZone.y), 1.0f) << "at most all of it";
     EXPECT_EQ(found->at(kBeside.x, kBeside.y), kEstimatedDetail);

@@ -33,8 +33,8 @@ std::shared_ptr<const TexturePicture> halves() {
     return columns([](int x) { return x < kShotSize.width / 2 ? 0.0f : 1.0f; });
 }
 
-ImageF3 rendered(const MemoryShot& shot, RegionPlan region, std::optional<GridWarp> warp,
-                 int frame) {
+ImageF3 rendered_warped(const MemoryShot& shot, RegionPlan region, std::optional<GridWarp> warp,
+                        int frame) {
     if (warp) {
         EXPECT_TRUE(check_grid_warp(*warp));
         region.placement.warp = std::make_shared<const PlaneWarp>(*warp, frame);
@@ -71,26 +71,26 @@ GridWarp middle_moved(double by) {
 
 TEST(GridWarpInThePicture, AtRestEveryByteStays) {
     const MemoryShot shot = make_wall();
-    const ImageF3 before = rendered(shot, make_region(halves()), std::nullopt, 3);
+    const ImageF3 before = rendered_warped(shot, make_region(halves()), std::nullopt, 3);
     EXPECT_TRUE(
-        same_bytes(before, rendered(shot, make_region(halves()), grid_over(kBox, 3, 2), 3)));
+        same_bytes(before, rendered_warped(shot, make_region(halves()), grid_over(kBox, 3, 2), 3)));
     const Quad<double> deep{glm::dvec2(20, 16), glm::dvec2(140, 30), glm::dvec2(130, 80),
                             glm::dvec2(24, 96)};
     EXPECT_TRUE(
-        same_bytes(before, rendered(shot, make_region(halves()), grid_over(deep, 3, 2), 3)));
+        same_bytes(before, rendered_warped(shot, make_region(halves()), grid_over(deep, 3, 2), 3)));
 }
 
 TEST(GridWarpInThePicture, TheTextureLiesWhereThePointIsPut) {
     const MemoryShot shot = make_wall(false, false);
-    const ImageF3 out = rendered(shot, make_region(halves()), middle_moved(12), 2);
+    const ImageF3 out = rendered_warped(shot, make_region(halves()), middle_moved(12), 2);
     EXPECT_NEAR(edge_in(out, 56), 92, 1);
     EXPECT_NEAR(edge_in(out, 18), 80, 1);
 }
 
 TEST(GridWarpInThePicture, ItSticksToTheSurface) {
     const MemoryShot shot = make_wall();
-    const ImageF3 first = rendered(shot, make_region(halves()), middle_moved(12), 1);
-    const ImageF3 later = rendered(shot, make_region(halves()), middle_moved(12), 8);
+    const ImageF3 first = rendered_warped(shot, make_region(halves()), middle_moved(12), 1);
+    const ImageF3 later = rendered_warped(shot, make_region(halves()), middle_moved(12), 8);
     const Vec2 moved = wall_moved({0, 0}, 8) - wall_moved({0, 0}, 1);
     EXPECT_NEAR(edge_in(later, 56 + static_cast<int>(moved.y)),
                 edge_in(first, 56) + static_cast<int>(moved.x), 1.5);
@@ -101,9 +101,9 @@ TEST(GridWarpInThePicture, KeysMoveItOverTime) {
     GridWarp warp = grid_over(kBox, 2, 2);
     set_key(warp, 2, warp.points);
     set_key(warp, 6, middle_moved(16).points);
-    EXPECT_NEAR(edge_in(rendered(shot, make_region(halves()), warp, 1), 56), 80, 1);
-    EXPECT_NEAR(edge_in(rendered(shot, make_region(halves()), warp, 4), 56), 88, 1);
-    EXPECT_NEAR(edge_in(rendered(shot, make_region(halves()), warp, 7), 56), 96, 1);
+    EXPECT_NEAR(edge_in(rendered_warped(shot, make_region(halves()), warp, 1), 56), 80, 1);
+    EXPECT_NEAR(edge_in(rendered_warped(shot, make_region(halves()), warp, 4), 56), 88, 1);
+    EXPECT_NEAR(edge_in(rendered_warped(shot, make_region(halves()), warp, 7), 56), 96, 1);
 }
 
 // Stripes of two texels squeezed to a third: far beyond what the pixels can show. Looked up without
@@ -114,7 +114,7 @@ TEST(GridWarpInThePicture, ItsOwnScaleIsFiltered) {
     GridWarp warp = grid_over(kBox, 1, 1);
     for (WarpPoint& point : warp.points)
         point.at.x = 80 + (point.at.x - 80) / 3;
-    const ImageF3 out = rendered(shot, make_region(stripes), warp, 2);
+    const ImageF3 out = rendered_warped(shot, make_region(stripes), warp, 2);
     float low = 1, high = 0;
     for (int x = 66; x < 94; ++x) {
         low = std::min(low, out.at(x, 56, 0));
@@ -128,9 +128,9 @@ TEST(GridWarpInThePicture, ItsOwnScaleIsFiltered) {
 TEST(GridWarpInThePicture, IsTheSameForAnyNumberOfThreads) {
     const MemoryShot shot = make_wall();
     set_thread_count(1);
-    const ImageF3 one = rendered(shot, make_region(halves()), middle_moved(12), 4);
+    const ImageF3 one = rendered_warped(shot, make_region(halves()), middle_moved(12), 4);
     set_thread_count(4);
-    const ImageF3 four = rendered(shot, make_region(halves()), middle_moved(12), 4);
+    const ImageF3 four = rendered_warped(shot, make_region(halves()), middle_moved(12), 4);
     set_thread_count(0);
     EXPECT_TRUE(same_bytes(one, four));
 }

@@ -12,8 +12,6 @@
 namespace weft {
 namespace {
 
-constexpr Recti kZoneBox{40, 30, 90, 70};
-
 class EdgedWall : public MemoryShot {
   public:
     explicit EdgedWall(bool disc = false) : MemoryShot(make_wall(disc)) {}
@@ -54,7 +52,7 @@ RegionPlan with_matte_edge(RegionPlan region, const MatteEdge& edge) {
     return region;
 }
 
-bool same_bits(const float* a, const float* b) {
+bool same_colour(const float* a, const float* b) {
     return std::equal(a, a + 3, b);
 }
 
@@ -105,7 +103,7 @@ TEST(MatteEdges, AShrunkMatteLeavesThePlateAtItsRim) {
     for (int y = 0; y < kShotSize.height; ++y) {
         for (int x = 0; x < kShotSize.width; ++x) {
             const int touched = out.touched.at(x, y);
-            const bool same = same_bits(out.pixels.pixel(x, y), shot.plates.at(4)->pixel(x, y));
+            const bool same = same_colour(out.pixels.pixel(x, y), shot.plates.at(4)->pixel(x, y));
             ASSERT_TRUE(same || touched > 0) << x << ' ' << y;
             ASSERT_TRUE(touched == 0 || kRegionBox.grown(-7).contains(x, y)) << x << ' ' << y;
             ASSERT_TRUE(touched == 255 || !left.contains(x, y)) << x << ' ' << y;

@@ -11,10 +11,6 @@
 namespace weft {
 namespace {
 
-void expect_ok(const Status& status) {
-    EXPECT_TRUE(status) << (status ? "" : status.error().text());
-}
-
 // The wall with a disc in front whose matte is painted on some frames only.
 class PaintedDisc : public MemoryShot {
   public:

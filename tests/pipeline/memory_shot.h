@@ -1,6 +1,8 @@
 #pragma once
 // A small shot in memory: a textured wall that pans, and whatever a test puts into it.
 
+#include <gtest/gtest.h>
+
 #include <atomic>
 #include <map>
 #include <memory>
@@ -66,6 +68,9 @@ class MemoryShot : public ShotSource {
 constexpr Size kShotSize{160, 112};
 constexpr int kFirst = 1, kLast = 10;
 constexpr Recti kRegionBox{20, 16, 140, 96};
+
+/// Where the tests of zones put one.
+constexpr Recti kZoneBox{40, 30, 90, 70};
 
 /// Where the wall's point p (as on frame 0) lies on a frame.
 inline Vec2 wall_moved(Vec2 p, int frame) {
@@ -155,6 +160,13 @@ inline RegionPlan make_region(std::shared_ptr<const TexturePicture> texture) {
     return region;
 }
 
+/// A grey region that takes its light from the plate.
+inline RegionPlan plate_lit() {
+    RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
+    region.light_source = LightSource::kPlate;
+    return region;
+}
+
 inline ShotPlan make_plan(RegionPlan region, int first = kFirst, int last = kLast) {
     ShotPlan plan;
     for (int f = first; f <= last; ++f)
@@ -165,6 +177,14 @@ inline ShotPlan make_plan(RegionPlan region, int first = kFirst, int last = kLas
     plan.out_from_plate = color("srgb", "srgb");
     plan.regions.push_back(std::move(region));
     return plan;
+}
+
+inline void expect_ok(const Status& status) {
+    EXPECT_TRUE(status) << (status ? "" : status.error().text());
+}
+
+inline void analyse(const ShotSource& shot, const ShotPlan& plan, AnalysisStore& store) {
+    expect_ok(analyse_shot(shot, plan, store, {}, {}));
 }
 
 inline LatticeField stored_coords(const AnalysisStore& store, int frame, int region = 0) {

@@ -15,13 +15,13 @@
 namespace weft {
 namespace {
 
-constexpr Recti kZoneBox{64, 44, 96, 70};
-constexpr int kFrame = 6;
-const AnalysisKey kPlace{0, kFrame, AnalysisKind::kCoords};
+constexpr Recti kMotionZoneBox{64, 44, 96, 70};
+constexpr int kZonedFrame = 6;
+const AnalysisKey kPlace{0, kZonedFrame, AnalysisKind::kCoords};
 
 class ZonedWall : public MemoryShot {
   public:
-    explicit ZonedWall(Recti box = kZoneBox) : MemoryShot(make_wall()), box_(box) {}
+    explicit ZonedWall(Recti box = kMotionZoneBox) : MemoryShot(make_wall()), box_(box) {}
     [[nodiscard]] Expected<Matte> zone(int, int, int) const override { return box_matte(box_); }
 
   private:
@@ -37,13 +37,8 @@ RegionPlan zoned(ZoneKind kind, float value = 1) {
     return region;
 }
 
-void analyse(const ShotSource& shot, const ShotPlan& plan, AnalysisStore& store) {
-    const Status done = analyse_shot(shot, plan, store, {}, {});
-    ASSERT_TRUE(done) << done.error().text();
-}
-
 LatticeField place_in(const AnalysisStore& store) {
-    return stored_coords(store, kFrame);
+    return stored_coords(store, kZonedFrame);
 }
 
 // Something that the walk might have made of a reflection.
@@ -59,11 +54,12 @@ LatticeField disturbed(LatticeField field) {
     return field;
 }
 
-RenderedFrame rendered(const ShotSource& shot, const ShotPlan& plan, const AnalysisStore& store) {
+RenderedFrame rendered_zones(const ShotSource& shot, const ShotPlan& plan,
+                             const AnalysisStore& store) {
     auto scene = make_scene(shot, plan, store, 0, {}, {});
     EXPECT_TRUE(scene) << scene.error().text();
     const std::vector<RegionScene> scenes{std::move(*scene)};
-    auto frame = render_frame(shot, plan, scenes, store, *make_cpu_backend(), kFrame);
+    auto frame = render_frame(shot, plan, scenes, store, *make_cpu_backend(), kZonedFrame);
     EXPECT_TRUE(frame) << frame.error().text();
     return std::move(*frame);
 }
@@ -75,21 +71,21 @@ TEST(MotionZones, MendInsideAndChangeNoPixelOutside) {
     analyse(shot, plain, store);
     const LatticeField true_place = place_in(store);
     ASSERT_TRUE(store.put(kPlace, encode(disturbed(true_place))));
-    const RenderedFrame before = rendered(shot, plain, store);
+    const RenderedFrame before = rendered_zones(shot, plain, store);
 
     const ShotPlan plan = make_plan(zoned(ZoneKind::kIgnore));
     const ZonedAnalysis seen(shot, plan, store);
     EXPECT_GT(distance(place_in(store).at({80, 57}), true_place.at({80, 57})), 1.0f);
     EXPECT_LT(distance(place_in(seen).at({80, 57}), true_place.at({80, 57})), 0.2f);
 
-    const RenderedFrame after = rendered(shot, plan, store);
+    const RenderedFrame after = rendered_zones(shot, plan, store);
     int changed = 0;
     for (int y = 0; y < kShotSize.height; ++y) {
         for (int x = 0; x < kShotSize.width; ++x) {
             const bool same = std::equal(before.pixels.pixel(x, y), before.pixels.pixel(x, y) + 3,
                                          after.pixels.pixel(x, y));
             changed += same ? 0 : 1;
-            ASSERT_TRUE(same || kZoneBox.grown(24).contains(x, y)) << x << "," << y;
+            ASSERT_TRUE(same || kMotionZoneBox.grown(24).contains(x, y)) << x << "," << y;
         }
     }
     EXPECT_GT(changed, 300);
@@ -133,7 +129,7 @@ TEST(MotionZones, FollowTheSurroundingsOfAPlainBoard) {
     MemoryAnalysisStore store;
     analyse(shot, plan, store);
     const Vec2 middle(80, 56);
-    const Vec2 truth = wall_moved(middle, kFirst) - wall_moved(middle, kFrame);
+    const Vec2 truth = wall_moved(middle, kFirst) - wall_moved(middle, kZonedFrame);
     EXPECT_GT(distance(place_in(store).at(middle), truth), 3.0f) << "the board itself stands";
     const ZonedAnalysis seen(shot, plan, store);
     EXPECT_LT(distance(place_in(seen).at(middle), truth), 0.2f);
@@ -142,9 +138,9 @@ TEST(MotionZones, FollowTheSurroundingsOfAPlainBoard) {
 TEST(MotionZones, APinInsideHolds) {
     const ZonedWall shot;
     RegionPlan region = zoned(ZoneKind::kIgnore);
-    region.reference_frames = {kFirst, kFrame};
+    region.reference_frames = {kFirst, kZonedFrame};
     const ShotPlan unpinned = make_plan(region);
-    region.corrections[kFrame] = {
+    region.corrections[kZonedFrame] = {
         {{80, 57}, {86, 54}}, {{30, 30}, {30, 30}}, {{130, 90}, {130, 90}}};
     const ShotPlan plan = make_plan(region);
     MemoryAnalysisStore before, after;

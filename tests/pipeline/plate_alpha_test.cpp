@@ -67,7 +67,7 @@ class ElementShot : public MemoryShot {
     std::shared_ptr<const ImageF1> coverage_;
 };
 
-ImageF3 rendered(const ElementShot& shot, RegionPlan region) {
+ImageF3 rendered_element(const ElementShot& shot, RegionPlan region) {
     const ShotPlan plan = make_plan(std::move(region));
     MemoryAnalysisStore store;
     EXPECT_TRUE(analyse_shot(shot, plan, store, {}, {}));
@@ -93,8 +93,8 @@ TEST(PlateAlpha, BothConventionsGiveTheSamePicture) {
         }
     }
     RegionPlan region = make_region(flat_texture({0.2f, 0.6f, 0.4f}));
-    ImageF3 a = rendered(straight, region);
-    const ImageF3 b = rendered(associated, region);
+    ImageF3 a = rendered_element(straight, region);
+    const ImageF3 b = rendered_element(associated, region);
     // Straight: the texture itself, at the soft edge and on the half transparent part.
     for (const int x : {33, 36, 50, 110}) {
         EXPECT_NEAR(a.at(x, 50, 0), a.at(80, 50, 0), 2e-3f) << x;

@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-constexpr int kFrame = 5;
+constexpr int kMappedFrame = 5;
 
 // A frame whose surface lies as `field` says.
 struct Shown {
@@ -20,11 +20,11 @@ struct Shown {
     RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
 
     explicit Shown(const LatticeField& ref_from_cur) {
-        shot.mattes[{0, kFrame}] = box_matte(kRegionBox);
-        EXPECT_TRUE(store.put({0, kFrame, AnalysisKind::kCoords}, encode(ref_from_cur)));
+        shot.mattes[{0, kMappedFrame}] = box_matte(kRegionBox);
+        EXPECT_TRUE(store.put({0, kMappedFrame, AnalysisKind::kCoords}, encode(ref_from_cur)));
     }
     [[nodiscard]] StMaps maps() const {
-        const auto found = st_maps(shot, make_plan(region), store, kFrame);
+        const auto found = st_maps(shot, make_plan(region), store, kMappedFrame);
         EXPECT_TRUE(found) << (found ? "" : found.error().text());
         return found ? *found : StMaps{};
     }
@@ -45,7 +45,7 @@ Vec2 bent(Vec2 p) {
     return c + turned + 3.0f * Vec2(std::sin(0.06f * p.y), std::cos(0.05f * p.x)) - p;
 }
 
-Vec2 place_in(const StMap& map, int x, int y) {
+Vec2 mapped_place(const StMap& map, int x, int y) {
     const float* st = map.st.pixel(x, y);
     return {st[0] * kShotSize.width, (1 - st[1]) * kShotSize.height};
 }
@@ -55,8 +55,8 @@ Vec2 place_at(const StMap& map, Vec2 at) {
     const int x = static_cast<int>(std::floor(at.x - 0.5f)),
               y = static_cast<int>(std::floor(at.y - 0.5f));
     const float u = at.x - 0.5f - static_cast<float>(x), v = at.y - 0.5f - static_cast<float>(y);
-    return (1 - v) * ((1 - u) * place_in(map, x, y) + u * place_in(map, x + 1, y)) +
-           v * ((1 - u) * place_in(map, x, y + 1) + u * place_in(map, x + 1, y + 1));
+    return (1 - v) * ((1 - u) * mapped_place(map, x, y) + u * mapped_place(map, x + 1, y)) +
+           v * ((1 - u) * mapped_place(map, x, y + 1) + u * mapped_place(map, x + 1, y + 1));
 }
 
 // Whether the four pixels around a place are seen in full.
@@ -82,8 +82,8 @@ TEST(StMaps, HaveTheirOriginAtTheLowerLeftAndHalfAPixelAtCentres) {
 
 TEST(StMaps, WarpGivesThePlaceOnTheReferenceFrame) {
     const StMaps maps = Shown(field_of([](Vec2) { return Vec2(-7.5f, 4); })).maps();
-    EXPECT_LT(glm::length(place_in(maps.warp, 60, 50) - Vec2(53, 54.5f)), 1e-3f);
-    EXPECT_LT(glm::length(place_in(maps.stabilize, 60, 50) - Vec2(68, 46.5f)), 1e-3f);
+    EXPECT_LT(glm::length(mapped_place(maps.warp, 60, 50) - Vec2(53, 54.5f)), 1e-3f);
+    EXPECT_LT(glm::length(mapped_place(maps.stabilize, 60, 50) - Vec2(68, 46.5f)), 1e-3f);
 }
 
 // Each undoes the other to a tenth of a pixel where the surface is visible.
@@ -94,7 +94,8 @@ TEST(StMaps, ThereAndBackIsWhereItBegan) {
     for (int y = 0; y < kShotSize.height; ++y) {
         for (int x = 0; x < kShotSize.width; ++x) {
             const Vec2 here(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-            const Vec2 there = place_in(maps.warp, x, y), seen = place_in(maps.stabilize, x, y);
+            const Vec2 there = mapped_place(maps.warp, x, y),
+                       seen = mapped_place(maps.stabilize, x, y);
             if (maps.warp.visible.at(x, y) == 1 && shown_at(maps.stabilize, there)) {
                 cur = std::max(cur, glm::length(place_at(maps.stabilize, there) - here));
                 ++compared;
@@ -114,7 +115,7 @@ TEST(StMaps, AHoldoutIsNotVisibleInEither) {
     Matte front(kShotSize);
     for (int y = 40; y < 60; ++y)
         std::fill(front.row(y) + 70, front.row(y) + 90, 255);
-    shown.shot.holdouts[{0, kFrame}] = front;
+    shown.shot.holdouts[{0, kMappedFrame}] = front;
     shown.region.has_holdout = true;
     const StMaps maps = shown.maps();
     EXPECT_EQ(maps.warp.visible.at(80, 50), 0);
@@ -134,8 +135,8 @@ TEST(StMaps, WhatIsFoldedAwayIsNotVisible) {
 TEST(StMaps, AFrameThatWasNotFollowedIsAnError) {
     const Shown shown(field_of([](Vec2) { return Vec2(0); }));
     const MemoryAnalysisStore nothing;
-    EXPECT_TRUE(st_maps(shown.shot, make_plan(shown.region), shown.store, kFrame));
-    EXPECT_FALSE(st_maps(shown.shot, make_plan(shown.region), nothing, kFrame));
+    EXPECT_TRUE(st_maps(shown.shot, make_plan(shown.region), shown.store, kMappedFrame));
+    EXPECT_FALSE(st_maps(shown.shot, make_plan(shown.region), nothing, kMappedFrame));
 }
 
 }  // namespace

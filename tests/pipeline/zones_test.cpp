@@ -10,12 +10,6 @@
 namespace weft {
 namespace {
 
-constexpr Recti kZoneBox{40, 30, 90, 70};
-
-void expect_ok(const Status& status) {
-    EXPECT_TRUE(status) << (status ? "" : status.error().text());
-}
-
 // The wall with a box on every frame as the matte of each of its zones.
 class ZonedWall : public MemoryShot {
   public:

@@ -16,14 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Size kPlate{96, 64};
+constexpr Size kCarriedPlate{96, 64};
 
 class MatteCarrierTest : public testing::Test {
   protected:
     void SetUp() override {
         fs::create_directories(folder_);
         for (int frame = 1; frame <= 4; ++frame) {
-            ImageF3 plate(kPlate, 0.2f);
+            ImageF3 plate(kCarriedPlate, 0.2f);
             for (int y = 16; y < 48; ++y)
                 for (int x = 24; x < 64; ++x)
                     plate.pixel(x, y)[0] = 0.5f + static_cast<float>((x + y) % 7) / 35.0f;
@@ -49,7 +49,7 @@ class MatteCarrierTest : public testing::Test {
         ASSERT_TRUE(write_image((folder_ / name).string(), picture, {}, {}));
     }
     static ImageF3 painted(int code) {
-        ImageF3 out(kPlate, 0.0f);
+        ImageF3 out(kCarriedPlate, 0.0f);
         for (int y = 16; y < 48; ++y)
             for (int x = 24; x < 64; ++x)
                 std::fill_n(out.pixel(x, y), 3, static_cast<float>(code) / 255.0f);
@@ -100,7 +100,7 @@ TEST_F(MatteCarrierTest, MattesAreThereWhenATextureIsChosen) {
 }
 
 TEST_F(MatteCarrierTest, AMatteFromMemoryCountsOnceItsFileIsThere) {
-    const auto key = read_matte((folder_ / "key.png").string(), {}, kPlate);
+    const auto key = read_matte((folder_ / "key.png").string(), {}, kCarriedPlate);
     ASSERT_TRUE(key);
     fs::remove(folder_ / "key.png");
     const std::string path = (folder_ / "key.png").string();

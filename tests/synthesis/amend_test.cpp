@@ -9,18 +9,13 @@ namespace weft {
 namespace {
 
 using test::blob_sample;
+using test::grow;
 
-PlaneOptions sized() {
+PlaneOptions tileable_options() {
     PlaneOptions o;
     o.size = {220, 180};
     o.tileable = true;
     return o;
-}
-
-TexturePlane grow(const ImageU8x3& sample, const PlaneOptions& options) {
-    auto plane = grow_plane(sample, options);
-    EXPECT_TRUE(plane) << (plane ? "" : plane.error().text());
-    return plane ? std::move(*plane) : TexturePlane{};
 }
 
 // What a plane shows in a rectangle, texel by texel.
@@ -47,7 +42,7 @@ constexpr Recti kPlace{60, 50, 110, 95};
 
 TEST(Amendments, LockingEverythingChangesNothing) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
-    PlaneOptions o = sized();
+    PlaneOptions o = tileable_options();
     const TexturePlane before = grow(sample, o);
     o.amendments = {keep(before, kPlace)};
     EXPECT_EQ(grow(sample, o).pixels, before.pixels);
@@ -55,7 +50,7 @@ TEST(Amendments, LockingEverythingChangesNothing) {
 
 TEST(Amendments, ALockedPatchStaysWhenTheRestIsRegenerated) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
-    PlaneOptions o = sized();
+    PlaneOptions o = tileable_options();
     const TexturePlane before = grow(sample, o);
     PlaneOptions other = o;
     other.seed = 9;
@@ -78,7 +73,7 @@ TEST(Amendments, ALockedPatchStaysWhenTheRestIsRegenerated) {
 
 TEST(Amendments, RegeneratingChangesThatPlaceOnly) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
-    PlaneOptions o = sized();
+    PlaneOptions o = tileable_options();
     const TexturePlane before = grow(sample, o);
     PlaneAmendment again = keep(before, kPlace);
     again.kind = PlaneAmendment::Kind::kAgain;
@@ -93,7 +88,7 @@ TEST(Amendments, RegeneratingChangesThatPlaceOnly) {
 
 TEST(Amendments, LockedTexelsAreNotRegenerated) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
-    PlaneOptions o = sized();
+    PlaneOptions o = tileable_options();
     const TexturePlane before = grow(sample, o);
     const Recti inner{75, 60, 95, 80};
     PlaneAmendment again = keep(before, kPlace);
@@ -106,7 +101,7 @@ TEST(Amendments, LockedTexelsAreNotRegenerated) {
 
 TEST(Amendments, SameBytesForAnyThreadCount) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
-    PlaneOptions o = sized();
+    PlaneOptions o = tileable_options();
     const TexturePlane before = grow(sample, o);
     o.seed = 3;
     o.amendments = {keep(before, {200, 170, 240, 190})};  // over the border
@@ -120,7 +115,7 @@ TEST(Amendments, SameBytesForAnyThreadCount) {
 
 TEST(Amendments, WhatIsNotInTheSampleIsLeftOut) {
     const ImageU8x3 sample = blob_sample(96, 96, 5);
-    PlaneOptions o = sized();
+    PlaneOptions o = tileable_options();
     const TexturePlane before = grow(sample, o);
     o.amendments = {{PlaneAmendment::Kind::kKeep,
                      0,

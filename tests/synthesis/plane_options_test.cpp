@@ -12,12 +12,6 @@
 namespace weft::test {
 namespace {
 
-PlaneOptions sized(int w, int h) {
-    PlaneOptions o;
-    o.size = {w, h};
-    return o;
-}
-
 // Mean absolute step across the plane's seams.
 double step_over_seams(const TexturePlane& plane) {
     double sum = 0;

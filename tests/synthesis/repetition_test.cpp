@@ -15,12 +15,6 @@
 namespace weft::test {
 namespace {
 
-PlaneOptions sized(int w, int h) {
-    PlaneOptions o;
-    o.size = {w, h};
-    return o;
-}
-
 TEST(TexturePeriod, FindsTheLatticeOfBricks) {
     const TexturePeriod period = find_period(brick_sample(96, 96, 32, 16));
     ASSERT_EQ(period.count, 2);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "engine/core/rng.h"
 #include "engine/synthesis/texture_plane.h"
@@ -52,6 +53,18 @@ inline ImageU8x3 brick_sample(int w, int h, int period_x, int period_y) {
         }
     }
     return out;
+}
+
+inline PlaneOptions sized(int w, int h) {
+    PlaneOptions o;
+    o.size = {w, h};
+    return o;
+}
+
+inline TexturePlane grow(ViewU8x3 sample, const PlaneOptions& options) {
+    auto plane = grow_plane(sample, options);
+    EXPECT_TRUE(plane) << (plane ? "" : plane.error().text());
+    return plane ? std::move(*plane) : TexturePlane{};
 }
 
 /// Every texel shows the sample pixel that the source map names, and the seams add up to what the

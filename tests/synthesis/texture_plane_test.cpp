@@ -14,18 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 
-TexturePlane grow(ViewU8x3 sample, const PlaneOptions& options) {
-    auto plane = grow_plane(sample, options);
-    EXPECT_TRUE(plane) << plane.error().text();
-    return plane ? std::move(*plane) : TexturePlane{};
-}
-
-PlaneOptions sized(int w, int h) {
-    PlaneOptions o;
-    o.size = {w, h};
-    return o;
-}
-
 struct Shape {
     int sample_w, sample_h, plane_w, plane_h, overlap;
     bool tileable;

@@ -7,10 +7,10 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{320, 200};
+constexpr Size kSlidingFrame{320, 200};
 
 LatticeField sliding() {
-    LatticeField field(kFrame, 8);
+    LatticeField field(kSlidingFrame, 8);
     for (int j = 0; j < field.nodes().height(); ++j) {
         for (int i = 0; i < field.nodes().width(); ++i) {
             const Vec2 p = field.node_position(i, j);

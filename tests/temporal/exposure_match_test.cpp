@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{256, 144};
+constexpr Size kPanFrame{256, 144};
 
 // A pan that begins: what a frame shows is `pan(t)` px further left.
 float pan(int t) {
@@ -21,15 +21,16 @@ Vec2 speed(int t) {
 }
 
 // The frames that a shutter makes that is open for `share` of a frame, with grain.
-std::shared_ptr<const StepFrame> frame(int t, float share) {
+std::shared_ptr<const StepFrame> exposed_frame(int t, float share) {
     const WaveTexture texture(21);
-    const Matte all = draw(kFrame, [](Vec2) { return 1.0f; });
-    const Matte sharp = draw(kFrame, [&](Vec2 p) { return texture((p + Vec2(pan(t), 0)) * 0.9f); });
+    const Matte all = draw(kPanFrame, [](Vec2) { return 1.0f; });
+    const Matte sharp =
+        draw(kPanFrame, [&](Vec2 p) { return texture((p + Vec2(pan(t), 0)) * 0.9f); });
     ExposedFrame taken =
-        exposed_along(sharp, all, moved_by(kFrame, t == 0 ? Vec2(0) : share * speed(t)));
+        exposed_along(sharp, all, moved_by(kPanFrame, t == 0 ? Vec2(0) : share * speed(t)));
     Rng grain(static_cast<std::uint64_t>(t));
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    for (int y = 0; y < kPanFrame.height; ++y) {
+        for (int x = 0; x < kPanFrame.width; ++x) {
             const double level = taken.luma.at(x, y) + 8 * (grain.uniform() - 0.5);
             taken.luma.at(x, y) = static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0));
         }
@@ -44,12 +45,12 @@ struct Learnt {
 
 Learnt learn(float share, int first, int last, float miss_px = 0) {
     Learnt out;
-    out.anchor = {frame(first, share), LatticeField(kFrame, 8), 0,
-                  moved_by(kFrame, first == 0 ? Vec2(0) : speed(first))};
+    out.anchor = {exposed_frame(first, share), LatticeField(kPanFrame, 8), 0,
+                  moved_by(kPanFrame, first == 0 ? Vec2(0) : speed(first))};
     for (int t = first + 1; t <= last; ++t) {
         const Vec2 way(pan(t) - pan(first) + miss_px, 0);
-        out.match.learn(out.anchor, *frame(t, share), moved_by(kFrame, speed(t)),
-                        moved_by(kFrame, way));
+        out.match.learn(out.anchor, *exposed_frame(t, share), moved_by(kPanFrame, speed(t)),
+                        moved_by(kPanFrame, way));
     }
     return out;
 }
@@ -71,11 +72,11 @@ TEST(ExposureMatch, LearnsNothingFromFramesThatMoveAlike) {
 
 TEST(ExposureMatch, RegistersABlurredFrameOnASharpOne) {
     constexpr float kShare = 0.5f;
-    constexpr int kLast = 6;
-    const Learnt learnt = learn(kShare, 0, kLast);
-    const auto cur = frame(kLast, kShare);
-    const LatticeField motion = moved_by(kFrame, speed(kLast));
-    const LatticeField expected = moved_by(kFrame, {pan(kLast) + 0.5f, 0.3f});
+    constexpr int kLastFrame = 6;
+    const Learnt learnt = learn(kShare, 0, kLastFrame);
+    const auto cur = exposed_frame(kLastFrame, kShare);
+    const LatticeField motion = moved_by(kPanFrame, speed(kLastFrame));
+    const LatticeField expected = moved_by(kPanFrame, {pan(kLastFrame) + 0.5f, 0.3f});
     const Registered sharp =
         register_against(learnt.anchor, *cur, false, expected, FlowQuality::kFinal);
     const auto alike =
@@ -83,19 +84,19 @@ TEST(ExposureMatch, RegistersABlurredFrameOnASharpOne) {
     ASSERT_TRUE(alike);
     EXPECT_LT(alike->fit.residual, 0.7 * sharp.fit.residual);
     for (const Vec2 p : {Vec2(60, 40), Vec2(120, 72), Vec2(150, 110)}) {
-        const Vec2 truth(pan(kLast), 0);
+        const Vec2 truth(pan(kLastFrame), 0);
         EXPECT_LT(distance(alike->anchor_from_cur.at(p), truth), 0.15f);
     }
 }
 
 TEST(ExposureMatch, LeavesSharpFramesAsTheyAre) {
     const Learnt learnt = learn(0, 0, 6);
-    const auto cur = frame(6, 0);
-    const LatticeField expected = moved_by(kFrame, {pan(6), 0});
+    const auto cur = exposed_frame(6, 0);
+    const LatticeField expected = moved_by(kPanFrame, {pan(6), 0});
     const Registered sharp =
         register_against(learnt.anchor, *cur, false, expected, FlowQuality::kFinal);
-    EXPECT_FALSE(learnt.match.registered(learnt.anchor, *cur, moved_by(kFrame, speed(6)), expected,
-                                         sharp, FlowQuality::kFinal));
+    EXPECT_FALSE(learnt.match.registered(learnt.anchor, *cur, moved_by(kPanFrame, speed(6)),
+                                         expected, sharp, FlowQuality::kFinal));
 }
 
 }  // namespace

@@ -11,11 +11,11 @@
 namespace weft {
 namespace {
 
-constexpr Size kSize{120, 90};
+constexpr Size kDrawingSize{120, 90};
 
 struct Drawing {
-    ImageU8x3 display{kSize, 200};
-    Matte extent{kSize}, holdout{kSize};
+    ImageU8x3 display{kDrawingSize, 200};
+    Matte extent{kDrawingSize}, holdout{kDrawingSize};
     [[nodiscard]] HoldView view() const { return {display, extent, holdout}; }
 };
 
@@ -30,7 +30,7 @@ void paint(ImageU8x3& picture, int x, int y, int r, int g, int b) {
 Drawing drawing(double shift, double line = 30) {
     Drawing out;
     for (int y = 15; y < 75; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+        for (int x = 0; x < kDrawingSize.width; ++x) {
             const double u = x + 0.5 - 20 - shift;
             const double inside = std::min(u, 60 - u) + 0.5;
             const double alpha = std::min(1.0, std::max(0.0, inside));
@@ -61,16 +61,16 @@ TEST(HeldFrames, AFlatFillThatMovesShowsByItsOutline) {
 TEST(HeldFrames, NoiseOfACodecDoesNotEndAHold) {
     Drawing a = drawing(0), b = drawing(0);
     Rng rng(7);
-    for (int y = 0; y < kSize.height; ++y)
-        for (int x = 0; x < kSize.width; ++x)
+    for (int y = 0; y < kDrawingSize.height; ++y)
+        for (int x = 0; x < kDrawingSize.width; ++x)
             if (rng.below(4) == 0) b.display.at(x, y, 1)++;
     EXPECT_TRUE(same_drawing(a.view(), b.view()));
 }
 
 TEST(HeldFrames, BackgroundAndWhatPassesInFrontDoNotCount) {
     Drawing a = drawing(0), b = drawing(0);
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kDrawingSize.height; ++y) {
+        for (int x = 0; x < kDrawingSize.width; ++x) {
             if (b.extent.at(x, y) == 0) paint(b.display, x, y, 20, 90, 160);
             if (x > 60 && x < 70 && y > 30 && y < 60) {
                 b.holdout.at(x, y) = 255;
@@ -83,7 +83,7 @@ TEST(HeldFrames, BackgroundAndWhatPassesInFrontDoNotCount) {
 
 TEST(HeldFrames, ASurfaceOutOfSightIsNotHeld) {
     Drawing a = drawing(0), b = drawing(0);
-    b.holdout = Matte(kSize, 255);
+    b.holdout = Matte(kDrawingSize, 255);
     EXPECT_FALSE(same_drawing(a.view(), b.view()));
     const Drawing none;
     EXPECT_FALSE(same_drawing(none.view(), none.view()));

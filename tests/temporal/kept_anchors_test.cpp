@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{240, 160};
+constexpr Size kBentFrame{240, 160};
 constexpr Vec2 kElsewhere{1.2f, 0};
 constexpr Recti kArm{100, 50, 160, 110};
 
@@ -20,14 +20,14 @@ Vec2 bent(Vec2 p) {
 
 // On the first frame something in front of it hides a part, with what the surface shows
 // 1.2 px beside.
-std::shared_ptr<const StepFrame> frame(bool first) {
+std::shared_ptr<const StepFrame> bent_frame(bool first) {
     const WaveTexture texture(3);
-    const Matte luma = draw(kFrame, [&](Vec2 p) {
+    const Matte luma = draw(kBentFrame, [&](Vec2 p) {
         if (!first) return texture(p + bent(p));
         const bool arm = kArm.contains(static_cast<int>(p.x), static_cast<int>(p.y));
         return texture(arm ? p + kElsewhere : p);
     });
-    const Matte all(kFrame, 255);
+    const Matte all(kBentFrame, 255);
     return std::make_shared<const StepFrame>(luma, all, all);
 }
 
@@ -35,9 +35,9 @@ std::shared_ptr<const StepFrame> frame(bool first) {
 // rightly.
 float drawn_aside(bool keep) {
     const SurfaceWalkerOptions options;
-    SurfaceWalker walker(frame(true), options);
+    SurfaceWalker walker(bent_frame(true), options);
     if (keep) {
-        Matte others(kFrame, 255);
+        Matte others(kBentFrame, 255);
         for (int y = kArm.y0; y < kArm.y1; ++y) {
             for (int x = kArm.x0; x < kArm.x1; ++x)
                 others.at(x, y) = 0;
@@ -45,12 +45,12 @@ float drawn_aside(bool keep) {
         walker.keep_on_anchors(others);
     }
     StepEvidence step;
-    step.by_picture = LatticeField(kFrame, options.spacing_px);
+    step.by_picture = LatticeField(kBentFrame, options.spacing_px);
     for (int j = 0; j < step.by_picture.nodes().height(); ++j) {
         for (int i = 0; i < step.by_picture.nodes().width(); ++i)
             step.by_picture.set_node(i, j, bent(step.by_picture.node_position(i, j)));
     }
-    walker.advance(WalkStep{frame(false), step});
+    walker.advance(WalkStep{bent_frame(false), step});
     constexpr Vec2 kMiddle{130, 80};
     return distance(walker.ref_from_cur().at(kMiddle), bent(kMiddle));
 }

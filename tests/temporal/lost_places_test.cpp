@@ -9,10 +9,10 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{256, 176};
+constexpr Size kLostFrame{256, 176};
 
 Matte all() {
-    return draw(kFrame, [](Vec2) { return 1.0f; });
+    return draw(kLostFrame, [](Vec2) { return 1.0f; });
 }
 
 // How far a fold carries the places of the frame: up to 9 px in its middle.
@@ -22,7 +22,7 @@ Vec2 fold(Vec2 p) {
 }
 
 LatticeField folded() {
-    LatticeField out(kFrame, 8);
+    LatticeField out(kLostFrame, 8);
     for (int j = 0; j < out.nodes().height(); ++j) {
         for (int i = 0; i < out.nodes().width(); ++i)
             out.set_node(i, j, fold(out.node_position(i, j)));
@@ -42,10 +42,10 @@ LostPlaces with_noise(double residual) {
 
 TEST(LostPlaces, FindsAFoldThatIsBeyondTheReachOfRegistration) {
     const WaveTexture texture(5);
-    const Anchor anchor{step_frame(draw(kFrame, texture)), LatticeField(kFrame, 8)};
-    const auto cur = step_frame(draw(kFrame, [&](Vec2 p) { return texture(p + fold(p)); }));
+    const Anchor anchor{step_frame(draw(kLostFrame, texture)), LatticeField(kLostFrame, 8)};
+    const auto cur = step_frame(draw(kLostFrame, [&](Vec2 p) { return texture(p + fold(p)); }));
     const Registered near =
-        register_against(anchor, *cur, false, LatticeField(kFrame, 8), FlowQuality::kDraft);
+        register_against(anchor, *cur, false, LatticeField(kLostFrame, 8), FlowQuality::kDraft);
     const Vec2 middle(170, 90);
     ASSERT_GT(distance(near.anchor_from_cur.at(middle), fold(middle)), 3);
     const auto wider = with_noise(0.05).find(anchor, *cur, {}, near, FlowQuality::kDraft);
@@ -56,18 +56,18 @@ TEST(LostPlaces, FindsAFoldThatIsBeyondTheReachOfRegistration) {
 
 TEST(LostPlaces, DoesNotLookWhereOnlyNoiseIsLeft) {
     const WaveTexture texture(5);
-    const Anchor anchor{step_frame(draw(kFrame, texture)), LatticeField(kFrame, 8)};
-    const auto cur = step_frame(draw(kFrame, [&](Vec2 p) { return texture(p + fold(p)); }));
+    const Anchor anchor{step_frame(draw(kLostFrame, texture)), LatticeField(kLostFrame, 8)};
+    const auto cur = step_frame(draw(kLostFrame, [&](Vec2 p) { return texture(p + fold(p)); }));
     const Registered found = register_against(anchor, *cur, false, folded(), FlowQuality::kDraft);
     EXPECT_FALSE(with_noise(found.fit.residual).find(anchor, *cur, {}, found, FlowQuality::kDraft));
 }
 
 TEST(LostPlaces, DoesNotTakeAnotherPictureForTheSurface) {
     const WaveTexture texture(5), other(6);
-    const Anchor anchor{step_frame(draw(kFrame, texture)), LatticeField(kFrame, 8)};
-    const auto cur = step_frame(draw(kFrame, other));
+    const Anchor anchor{step_frame(draw(kLostFrame, texture)), LatticeField(kLostFrame, 8)};
+    const auto cur = step_frame(draw(kLostFrame, other));
     const Registered found =
-        register_against(anchor, *cur, false, LatticeField(kFrame, 8), FlowQuality::kDraft);
+        register_against(anchor, *cur, false, LatticeField(kLostFrame, 8), FlowQuality::kDraft);
     EXPECT_FALSE(with_noise(0.05).find(anchor, *cur, {}, found, FlowQuality::kDraft));
 }
 
@@ -79,16 +79,16 @@ TEST(LostPlaces, DoesNotFollowShades) {
         const float shade = std::clamp(2.2f * leaves((p + wind) * 0.6f) - 0.6f, 0.0f, 1.0f);
         return (0.75f + 0.25f * paint(p)) * (0.35f + 0.5f * shade);
     };
-    const Anchor anchor{step_frame(draw(kFrame,
+    const Anchor anchor{step_frame(draw(kLostFrame,
                                         [&](Vec2 p) {
                                             return lit(p, {0, 0});
                                         })),
-                        LatticeField(kFrame, 8)};
-    const auto cur = step_frame(draw(kFrame, [&](Vec2 p) {
+                        LatticeField(kLostFrame, 8)};
+    const auto cur = step_frame(draw(kLostFrame, [&](Vec2 p) {
         return lit(p, {7 * std::sin(p.y / 40), 9 * std::cos(p.x / 50)});
     }));
     const Registered found =
-        register_against(anchor, *cur, false, LatticeField(kFrame, 8), FlowQuality::kDraft);
+        register_against(anchor, *cur, false, LatticeField(kLostFrame, 8), FlowQuality::kDraft);
     EXPECT_FALSE(with_noise(0.12).find(anchor, *cur, {}, found, FlowQuality::kDraft));
 }
 

@@ -6,12 +6,10 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "tests/motion/pictures.h"
+
 namespace weft {
 namespace {
-
-float distance(Vec2 a, Vec2 b) {
-    return std::hypot(a.x - b.x, a.y - b.y);
-}
 
 TextureMapping::Inverse inverse_of(const PlanePlacement& p) {
     const auto map = texture_mapping(p);

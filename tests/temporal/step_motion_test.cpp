@@ -13,6 +13,7 @@
 #include "engine/motion/photometric_register.h"
 #include "engine/temporal/surface_walker.h"
 #include "tests/motion/pictures.h"
+#include "tests/temporal/picture_flow.h"
 
 namespace weft {
 namespace {
@@ -42,20 +43,13 @@ Matte window() {
     });
 }
 
-FlowField flow_between(const Matte& cur, const Matte& prev) {
-    FlowField there = estimate_flow(cur, prev, FlowQuality::kFinal);
-    FlowField back = estimate_flow(prev, cur, FlowQuality::kFinal);
-    check_consistency(there, back);
-    return there;
-}
-
 TEST(StepMotion, FollowsFaintPlasterByItsPicture) {
-    constexpr int kFrames = 6;
+    constexpr int kSlideFrames = 6;
     constexpr float kContrast = 0.03f, kGrain = 1.5f;
     const Matte matte = window();
     Matte last = frame_of(0, kContrast, kGrain);
     SurfaceWalker walker(last, matte, {});
-    for (int t = 1; t < kFrames; ++t) {
+    for (int t = 1; t < kSlideFrames; ++t) {
         const Matte luma = frame_of(t, kContrast, kGrain);
         const FlowField flow = flow_between(luma, last);
         // No more structure for one pixel than a flat fill has.
@@ -65,7 +59,7 @@ TEST(StepMotion, FollowsFaintPlasterByItsPicture) {
     }
     for (const Vec2 p : std::array{Vec2(60, 60), Vec2(128, 88), Vec2(200, 120)}) {
         const Vec2 moved = walker.ref_from_cur().at(p);
-        EXPECT_NEAR(moved.x, -kStep_px * (kFrames - 1), 1.0f);
+        EXPECT_NEAR(moved.x, -kStep_px * (kSlideFrames - 1), 1.0f);
         EXPECT_NEAR(moved.y, 0, 1.0f);
     }
 }
@@ -106,7 +100,7 @@ TEST(StepMotion, FollowsAFaintClothUnderAMovingShade) {
     }
 }
 
-LatticeField moved_by(float x) {
+LatticeField moved_along_x(float x) {
     return moved_by(kFrame, {x, 0});
 }
 
@@ -134,17 +128,17 @@ Leads leads_of(float paint, float light, const LatticeField& picture, const Latt
 }
 
 TEST(PictureLead, IsNoneOfMotionThatFollowsTheLight) {
-    const Leads leads = leads_of(0.03f, 0.016f, moved_by(0), moved_by(-kStep_px));
+    const Leads leads = leads_of(0.03f, 0.016f, moved_along_x(0), moved_along_x(-kStep_px));
     EXPECT_GT(leads.as_fitted, 1.5) << "by itself it leads";
     EXPECT_LT(leads.corrected, 0);
 }
 
 TEST(PictureLead, IsClearWherePaintMoves) {
-    EXPECT_GT(leads_of(0.06f, 0, moved_by(-kStep_px), moved_by(0)).corrected, 1);
+    EXPECT_GT(leads_of(0.06f, 0, moved_along_x(-kStep_px), moved_along_x(0)).corrected, 1);
 }
 
 TEST(PictureLead, IsNothingWhereNothingCanBeCompared) {
-    EXPECT_EQ(picture_lead({}, {}, moved_by(0), moved_by(-kStep_px)), 0);
+    EXPECT_EQ(picture_lead({}, {}, moved_along_x(0), moved_along_x(-kStep_px)), 0);
 }
 
 TEST(StepMotion, WhatIsFoundAgainEverywhereIsNotSearchedTwice) {
@@ -265,8 +259,8 @@ TEST(StepMotion, FollowsTheOutlineAlongStripesOfOneDirection) {
     // What the picture shows along its lines goes before.
     MotionChoice seen;
     StepEvidence clear;
-    clear.by_picture = moved_by(-1);
-    clear.by_lines = moved_by(-5);
+    clear.by_picture = moved_along_x(-1);
+    clear.by_lines = moved_along_x(-5);
     clear.lines_lead = 3;
     EXPECT_EQ(choose_motion(clear, seen).prev_from_cur.at({120, 60}).x, -1);
 }

@@ -7,11 +7,12 @@
 
 #include "engine/motion/motion_blur.h"
 #include "tests/motion/pictures.h"
+#include "tests/temporal/picture_flow.h"
 
 namespace weft {
 namespace {
 
-constexpr Size kFrame{256, 176};
+constexpr Size kShotFrame{256, 176};
 constexpr int kFrames = 21;
 
 // A textured plane that turns, comes nearer and tilts away, while something crosses in front of it.
@@ -44,33 +45,27 @@ class Shot {
         const WaveTexture plane(7), occluder(8);
         for (int t = 0; t < kFrames; ++t) {
             const Mat3 map = glm::inverse(frame_from_plane(t));
-            luma.push_back(draw(kFrame, [&](Vec2 p) {
+            luma.push_back(draw(kShotFrame, [&](Vec2 p) {
                 return occluded(p, t) ? occluder(p - Vec2(15 * t, 0)) : plane(project(map, p));
             }));
-            visible.push_back(draw(kFrame, [&](Vec2 p) { return occluded(p, t) ? 0.0f : 1.0f; }));
+            visible.push_back(
+                draw(kShotFrame, [&](Vec2 p) { return occluded(p, t) ? 0.0f : 1.0f; }));
         }
     }
 
     std::vector<Matte> luma, visible;
 };
 
-FlowField flow_between(const Matte& cur, const Matte& prev) {
-    FlowField there = estimate_flow(cur, prev, FlowQuality::kFinal);
-    FlowField back = estimate_flow(prev, cur, FlowQuality::kFinal);
-    check_consistency(there, back);
-    return there;
-}
-
 // Mean distance, over the visible pixels of frame t, between where the walker says they were on the
 // reference frame and where they were.
 float mean_error(const LatticeField& ref_from_cur, const Shot& shot, int t, int reference) {
     double sum = 0;
     int count = 0;
-    for (int y = 0; y < kFrame.height; y += 3) {
-        for (int x = 0; x < kFrame.width; x += 3) {
+    for (int y = 0; y < kShotFrame.height; y += 3) {
+        for (int x = 0; x < kShotFrame.width; x += 3) {
             if (!shot.visible[static_cast<std::size_t>(t)].at(x, y)) continue;
             const Vec2 p = centre_of(x, y), truth = Shot::move(p, reference, t);
-            if (!rect_of(kFrame).contains(static_cast<int>(truth.x), static_cast<int>(truth.y)))
+            if (!rect_of(kShotFrame).contains(static_cast<int>(truth.x), static_cast<int>(truth.y)))
                 continue;
             sum += distance(p + ref_from_cur.at(p), truth);
             ++count;
@@ -129,8 +124,8 @@ TEST(SurfaceWalker, IsNotMisledByChangesOfBrightness) {
     for (int t = 0; t < kFrames; ++t) {
         const float gain = 1 - 0.3f * static_cast<float>(t) / (kFrames - 1);
         Matte& luma = shot.luma[static_cast<std::size_t>(t)];
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        for (int y = 0; y < kShotFrame.height; ++y) {
+            for (int x = 0; x < kShotFrame.width; ++x) {
                 luma.at(x, y) = code_of(gain * static_cast<float>(luma.at(x, y)) / 255.0f);
             }
         }
@@ -145,10 +140,10 @@ TEST(SurfaceWalker, ChainsTrueMotionClosely) {
     options.spacing_px = 4;
     SurfaceWalker walker(shot.luma[0], shot.visible[0], options);
     for (std::size_t t = 1; t < kFrames; ++t) {
-        FlowField motion(kFrame);
+        FlowField motion(kShotFrame);
         motion.valid = shot.visible[t];
-        for (int y = 0; y < kFrame.height; ++y) {
-            for (int x = 0; x < kFrame.width; ++x) {
+        for (int y = 0; y < kShotFrame.height; ++y) {
+            for (int x = 0; x < kShotFrame.width; ++x) {
                 const Vec2 p = centre_of(x, y);
                 const Vec2 d =
                     Shot::occluded(p, static_cast<int>(t))
@@ -176,7 +171,7 @@ TEST(SurfaceWalker, TheStepIsTheLastMotion) {
 
 TEST(SurfaceWalker, BeginsWhereAnEarlierWalkEnded) {
     const Shot shot;
-    LatticeField base(kFrame, 8);
+    LatticeField base(kShotFrame, 8);
     for (int j = 0; j < base.nodes().height(); ++j) {
         for (int i = 0; i < base.nodes().width(); ++i)
             base.set_node(i, j, {30, -12});
@@ -197,7 +192,7 @@ TEST(SurfaceWalker, BeginsWhereAnEarlierWalkEnded) {
 
 TEST(SurfaceWalker, StandsStillWhereNothingIsVisible) {
     const Shot shot;
-    const Matte nothing(kFrame);
+    const Matte nothing(kShotFrame);
     SurfaceWalker walker(shot.luma[0], nothing, {});
     walker.advance(shot.luma[1], nothing, flow_between(shot.luma[1], shot.luma[0]));
     EXPECT_EQ(walker.ref_from_cur().at({100, 100}), Vec2(0, 0));
@@ -212,13 +207,13 @@ struct Swing {
     }
     static Vec2 to_card(Vec2 p, int t) { return p - offset(t); }
     static Matte visible(int t) {
-        return draw(kFrame, [&](Vec2 p) {
+        return draw(kShotFrame, [&](Vec2 p) {
             const Vec2 q = to_card(p, t) - Vec2(128, 88);
             return std::abs(q.x) < 50 && std::abs(q.y) < 45 ? 1.0f : 0.0f;
         });
     }
     [[nodiscard]] Matte luma(int t) const {
-        return draw(kFrame, [&](Vec2 p) { return texture(to_card(p, t)); });
+        return draw(kShotFrame, [&](Vec2 p) { return texture(to_card(p, t)); });
     }
     static float error(const LatticeField& ref_from_cur, int t) {
         const Vec2 p = Vec2(128, 88) + offset(t);
@@ -236,7 +231,8 @@ TEST(SurfaceWalker, FindsTheSurfaceAgainAfterItWasHidden) {
     for (int t = 1; t < 24; ++t) {
         const Matte cur = swing.luma(t);
         const bool hidden = t >= 4 && t < 15;
-        walker.advance(cur, hidden ? Matte(kFrame) : Swing::visible(t), flow_between(cur, before));
+        walker.advance(cur, hidden ? Matte(kShotFrame) : Swing::visible(t),
+                       flow_between(cur, before));
         if (!hidden) {
             EXPECT_LT(Swing::error(walker.ref_from_cur(), t), 0.15f) << t;
         }
@@ -251,10 +247,12 @@ TEST(SurfaceWalker, WaitsForTheSurfaceWithoutForgettingIt) {
     Matte before = swing.luma(0);
     SurfaceWalker walker(before, Swing::visible(0), {});
     for (int t = 1; t < 16; ++t) {
-        const Matte cur = t == 6 || t == 7 ? draw(kFrame, [&](Vec2 p) { return other(p * 1.3f); })
-                                           : swing.luma(t);
+        const Matte cur = t == 6 || t == 7
+                              ? draw(kShotFrame, [&](Vec2 p) { return other(p * 1.3f); })
+                              : swing.luma(t);
         const bool hidden = t == 4 || t == 5;
-        walker.advance(cur, hidden ? Matte(kFrame) : Swing::visible(t), flow_between(cur, before));
+        walker.advance(cur, hidden ? Matte(kShotFrame) : Swing::visible(t),
+                       flow_between(cur, before));
         before = cur;
     }
     EXPECT_LT(Swing::error(walker.ref_from_cur(), 15), 0.15f);
@@ -262,7 +260,7 @@ TEST(SurfaceWalker, WaitsForTheSurfaceWithoutForgettingIt) {
 
 TEST(SurfaceWalker, GoesOnWhenTheSurfaceComesIntoView) {
     const Shot shot;
-    SurfaceWalker walker(shot.luma[0], Matte(kFrame), {});
+    SurfaceWalker walker(shot.luma[0], Matte(kShotFrame), {});
     const FlowField motion = flow_between(shot.luma[1], shot.luma[0]);
     walker.advance(shot.luma[1], shot.visible[1], motion);
     EXPECT_LT(mean_error(walker.ref_from_cur(), shot, 1, 0), 0.2f);
@@ -274,10 +272,12 @@ TEST(SurfaceWalker, ReleasesAStretchedTextureAndKeepsTrackingIt) {
     const WaveTexture plane(7);
     const auto width_at = [](int t) { return std::pow(0.92f, static_cast<float>(t)); };
     const auto luma_at = [&](int t) {
-        return draw(kFrame, [&](Vec2 p) { return plane({128 + (p.x - 128) / width_at(t), p.y}); });
+        return draw(kShotFrame, [&](Vec2 p) {
+            return plane({128 + (p.x - 128) / width_at(t), p.y});
+        });
     };
     const auto visible_at = [&](int t) {
-        return draw(kFrame,
+        return draw(kShotFrame,
                     [&](Vec2 p) { return std::abs(p.x - 128) < 120 * width_at(t) ? 1.0f : 0.0f; });
     };
     SurfaceWalker walker(luma_at(0), visible_at(0), {});
@@ -308,12 +308,12 @@ TEST(SurfaceWalker, ReleasesAStretchedTextureAndKeepsTrackingIt) {
 TEST(SurfaceWalker, StaysInPlaceWhenAPanBlursThePicture) {
     const WaveTexture wall(14);
     const auto pan = [](int t) { return 1.2f * static_cast<float>(t * t); };
-    const Matte all = draw(kFrame, [](Vec2) { return 1.0f; });
+    const Matte all = draw(kShotFrame, [](Vec2) { return 1.0f; });
     const auto taken = [&](int t) {
         const Matte sharp =
-            draw(kFrame, [&](Vec2 p) { return wall((p + Vec2(pan(t), 0)) * 1.2f); });
+            draw(kShotFrame, [&](Vec2 p) { return wall((p + Vec2(pan(t), 0)) * 1.2f); });
         const float way = t > 0 ? 0.5f * (pan(t) - pan(t - 1)) : 0;
-        return exposed_along(sharp, all, moved_by(kFrame, {way, 0})).luma;
+        return exposed_along(sharp, all, moved_by(kShotFrame, {way, 0})).luma;
     };
     Matte before = taken(0);
     SurfaceWalker walker(before, all, {});
@@ -329,16 +329,16 @@ TEST(SurfaceWalker, StaysInPlaceWhenAPanBlursThePicture) {
 // Raw motion that knows nothing of a fold that jerks: what is lost in one step comes back.
 TEST(SurfaceWalker, FindsAgainWhatAStepHasLost) {
     const WaveTexture cloth(15);
-    const Matte all = draw(kFrame, [](Vec2) { return 1.0f; });
+    const Matte all = draw(kShotFrame, [](Vec2) { return 1.0f; });
     const Vec2 middle(150, 90);
     const auto fold = [&](Vec2 p, int t) {
         const float r = distance(p, middle);
         return t < 2 ? Vec2(0) : Vec2(8, 3) * std::exp(-r * r / (2 * 28 * 28));
     };
     const auto taken = [&](int t) {
-        return draw(kFrame, [&](Vec2 p) { return cloth(p + fold(p, t)); });
+        return draw(kShotFrame, [&](Vec2 p) { return cloth(p + fold(p, t)); });
     };
-    FlowField still(kFrame);
+    FlowField still(kShotFrame);
     std::fill_n(still.valid.data(), still.valid.size_bytes(), std::uint8_t{255});
     SurfaceWalker walker(taken(0), all, {});
     for (int t = 1; t < 6; ++t)
@@ -361,16 +361,16 @@ TEST(SurfaceWalker, LaysADrawingOnTheReferenceDrawingAgain) {
         return std::abs(q.x) < 36 + 0.2f * q.y && std::abs(q.y) < 30;
     };
     const auto extent = [&](int t) {
-        return draw(kFrame, [&](Vec2 p) { return inside(on_sign(p, t)) ? 1.0f : 0.0f; });
+        return draw(kShotFrame, [&](Vec2 p) { return inside(on_sign(p, t)) ? 1.0f : 0.0f; });
     };
     const auto luma = [&](int t) {
-        return draw(kFrame, [&](Vec2 p) {
+        return draw(kShotFrame, [&](Vec2 p) {
             const Vec2 q = on_sign(p, t);
             return !inside(q) ? 0.8f : std::abs(q.y - 6) < 1.5f ? 0.1f : 0.5f;
         });
     };
     SurfaceWalker walker(luma(0), extent(0), {});
-    FlowField still(kFrame);
+    FlowField still(kShotFrame);
     std::fill_n(still.valid.data(), still.valid.size_bytes(), std::uint8_t{255});
     for (int t = 1; t <= kDrawings; ++t) {
         walker.advance(luma(t), extent(t), still);

@@ -10,12 +10,12 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{160, 96};
+constexpr Size kTinyFrame{160, 96};
 const Vec2 kStart(40, 30);
 
 // A textured rectangle that moves over a still background.
 struct Picture {
-    Matte luma{kFrame}, matte{kFrame};
+    Matte luma{kTinyFrame}, matte{kTinyFrame};
 };
 Picture picture(Vec2 at, Vec2 size) {
     static const WaveTexture back(31), front(32);
@@ -27,8 +27,8 @@ Picture picture(Vec2 at, Vec2 size) {
         return share(q.x, size.x) * share(q.y, size.y);
     };
     Picture out;
-    out.matte = draw(kFrame, covered);
-    out.luma = draw(kFrame, [&](Vec2 p) {
+    out.matte = draw(kTinyFrame, covered);
+    out.luma = draw(kTinyFrame, [&](Vec2 p) {
         const float share = covered(p);
         return (1 - share) * back(p) + share * front(p - at);
     });
@@ -43,7 +43,7 @@ float largest_error(Vec2 step, Vec2 size) {
     for (int k = 1; k < 10; ++k) {
         const Vec2 moved = static_cast<float>(k) * step;
         const Picture now = picture(kStart + moved, size);
-        const LatticeField& field = walker.advance(now.luma, now.matte, FlowField(kFrame));
+        const LatticeField& field = walker.advance(now.luma, now.matte, FlowField(kTinyFrame));
         const Vec2 middle = kStart + moved + 0.5f * size;
         most = std::max(most, distance(field.at(middle), -moved));
     }

@@ -13,10 +13,10 @@
 namespace weft {
 namespace {
 
-constexpr Size kFrame{320, 200};
+constexpr Size kZoneFrame{320, 200};
 constexpr int kSpacing = 8;
 
-float normal(Rng& rng) {
+float nearly_normal(Rng& rng) {
     float sum = -6;
     for (int k = 0; k < 12; ++k)
         sum += static_cast<float>(rng.uniform());
@@ -30,7 +30,7 @@ Vec2 wall(Vec2 p) {
 }
 
 LatticeField field_of(const std::function<Vec2(Vec2)>& lands) {
-    LatticeField field(kFrame, kSpacing);
+    LatticeField field(kZoneFrame, kSpacing);
     for (int j = 0; j < field.nodes().height(); ++j) {
         for (int i = 0; i < field.nodes().width(); ++i) {
             const Vec2 p = field.node_position(i, j);
@@ -41,7 +41,7 @@ LatticeField field_of(const std::function<Vec2(Vec2)>& lands) {
 }
 
 Matte box(int x0, int y0, int x1, int y1) {
-    Matte out(kFrame);
+    Matte out(kZoneFrame);
     for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x)
             out.at(x, y) = 255;
@@ -68,14 +68,14 @@ LatticeField disturbed(const std::function<Vec2(Vec2)>& by) {
 
 Vec2 noise(Vec2 p) {
     Rng rng(static_cast<std::uint64_t>(1000 * p.x + p.y));
-    return 3.0f * Vec2(normal(rng), normal(rng));
+    return 3.0f * Vec2(nearly_normal(rng), nearly_normal(rng));
 }
 
 // The largest distance inside of the zone from where `lands` says.
 float worst(const LatticeField& field, const std::function<Vec2(Vec2)>& lands, float within = 0) {
     float worst = 0;
-    for (int y = 0; y < kFrame.height; y += 4) {
-        for (int x = 0; x < kFrame.width; x += 4) {
+    for (int y = 0; y < kZoneFrame.height; y += 4) {
+        for (int x = 0; x < kZoneFrame.width; x += 4) {
             const Vec2 p(x, y);
             if (in_zone(p, -within)) worst = std::max(worst, distance(p + field.at(p), lands(p)));
         }
@@ -85,9 +85,9 @@ float worst(const LatticeField& field, const std::function<Vec2(Vec2)>& lands, f
 
 // No pixel further than three spacings outside of the zone changes, by a bit.
 void expect_same_outside(const LatticeField& before, const LatticeField& after) {
-    const ImageF2 a = before.dense(rect_of(kFrame)), b = after.dense(rect_of(kFrame));
-    for (int y = 0; y < kFrame.height; ++y) {
-        for (int x = 0; x < kFrame.width; ++x) {
+    const ImageF2 a = before.dense(rect_of(kZoneFrame)), b = after.dense(rect_of(kZoneFrame));
+    for (int y = 0; y < kZoneFrame.height; ++y) {
+        for (int x = 0; x < kZoneFrame.width; ++x) {
             if (in_zone(Vec2(x, y), 3 * kSpacing)) continue;
             ASSERT_EQ(a.pixel(x, y)[0], b.pixel(x, y)[0]) << x << "," << y;
             ASSERT_EQ(a.pixel(x, y)[1], b.pixel(x, y)[1]) << x << "," << y;
@@ -138,7 +138,7 @@ TEST(ZoneMotion, WithoutThePictureWhatBendsAroundItBendsInside) {
 TEST(ZoneMotion, AZoneOverTheWholeSurfaceMovesAsAPlane) {
     const LatticeField before = disturbed([](Vec2 p) { return 0.2f * noise(p); });
     ASSERT_GT(worst(before, wall), 0.8f);
-    const Matte all = box(0, 0, kFrame.width, kFrame.height);
+    const Matte all = box(0, 0, kZoneFrame.width, kZoneFrame.height);
     EXPECT_LT(worst(without_picture(before, {all, zone(), 1}), wall), 0.4f);
 }
 
@@ -165,7 +165,7 @@ TEST(ZoneMotion, CalmTakesWhatTremblesAndLeavesWhatBends) {
     const auto lands = [](int frame, bool trembles) {
         return [frame, trembles](Vec2 p) {
             Rng rng(static_cast<std::uint64_t>(frame + 100));
-            const Vec2 shake = trembles ? Vec2(normal(rng), normal(rng)) : Vec2(0);
+            const Vec2 shake = trembles ? Vec2(nearly_normal(rng), nearly_normal(rng)) : Vec2(0);
             const float bump = in_zone(p) ? std::cos((p.x - 120) / 20 * 3.14159f) : 0;
             return wall(p) + bump * (Vec2(0, 0.2f * static_cast<float>(frame)) + shake);
         };
@@ -207,7 +207,7 @@ TEST(ZoneMotion, HalfTheAmountGoesHalfTheWay) {
 
 TEST(ZoneMotion, AnEmptyZoneChangesNothing) {
     const LatticeField before = disturbed(noise);
-    const Matte none(kFrame);
+    const Matte none(kZoneFrame);
     EXPECT_EQ(without_picture(before, {none, surface(), 1}).nodes(), before.nodes());
     EXPECT_EQ(stiffened(before, {none, surface(), 1}).nodes(), before.nodes());
     EXPECT_EQ(calmed(before, {none, surface(), 1}, {}).nodes(), before.nodes());

@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "tests/texture_db/scratch.h"
 #include "texture_db/describe/picture_file.h"
 #include "texture_db/describe/sample_codec.h"
@@ -75,18 +73,14 @@ std::string zip_of(const std::vector<Member>& members) {
            number(offset, 4) + number(0, 2);
 }
 
-void write(const std::string& path, const std::string& bytes) {
-    std::ofstream(path, std::ios::binary) << bytes;
-}
-
 TEST(Zip, PathsThatClimbOutAreRefused) {
     const Scratch scratch;
-    write(scratch.at("a.zip"), zip_of({{"good/wood.png", "x", 0, 0},
-                                       {"../../evil.png", "x", 0, 0},
-                                       {"/etc/evil.png", "x", 0, 0},
-                                       {"a/../../evil.png", "x", 0, 0},
-                                       {"C:\\evil.png", "x", 0, 0},
-                                       {"a//b.png", "x", 0, 0}}));
+    write_file(scratch.at("a.zip"), zip_of({{"good/wood.png", "x", 0, 0},
+                                            {"../../evil.png", "x", 0, 0},
+                                            {"/etc/evil.png", "x", 0, 0},
+                                            {"a/../../evil.png", "x", 0, 0},
+                                            {"C:\\evil.png", "x", 0, 0},
+                                            {"a//b.png", "x", 0, 0}}));
     const auto zip = ZipReader::open(scratch.at("a.zip"));
     ASSERT_TRUE(zip) << zip.error().text();
     ASSERT_EQ(zip->entries().size(), 1u);
@@ -96,8 +90,8 @@ TEST(Zip, PathsThatClimbOutAreRefused) {
 
 TEST(Zip, BombsAndWrongChecksumsAreRefused) {
     const Scratch scratch;
-    write(scratch.at("a.zip"),
-          zip_of({{"bomb.png", "x", 4'000'000'000u, 0}, {"wrong.png", "data", 0, 0x12345678}}));
+    write_file(scratch.at("a.zip"), zip_of({{"bomb.png", "x", 4'000'000'000u, 0},
+                                            {"wrong.png", "data", 0, 0x12345678}}));
     auto zip = ZipReader::open(scratch.at("a.zip"));
     ASSERT_TRUE(zip);
     EXPECT_THAT(zip->refused(), testing::ElementsAre("bomb.png"));
@@ -114,8 +108,8 @@ TEST(Zip, MoreThan65535EntriesAreAllRead) {
         members.push_back({"t/" + std::to_string(i) + ".png", "", 0, 0});
     members.push_back({"last.png", "abc", 0, 0x352441c2});
     const auto [out, directory] = zip_parts(members);
-    write(scratch.at("many.zip"),
-          out + directory + zip64_end(members.size(), directory.size(), out.size()));
+    write_file(scratch.at("many.zip"),
+               out + directory + zip64_end(members.size(), directory.size(), out.size()));
     auto zip = ZipReader::open(scratch.at("many.zip"));
     ASSERT_TRUE(zip) << zip.error().text();
     ASSERT_EQ(zip->entries().size(), members.size());
@@ -132,12 +126,12 @@ TEST(Zip, CountsThatCannotBeTrueAreErrors) {
     for (const std::uint64_t count :
          {std::uint64_t{2}, std::uint64_t{2'000'000}, std::uint64_t{1} << 28,
           std::uint64_t{1} << 31, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
-        write(scratch.at("lie.zip"),
-              out + directory + zip64_end(count, directory.size(), out.size()));
+        write_file(scratch.at("lie.zip"),
+                   out + directory + zip64_end(count, directory.size(), out.size()));
         EXPECT_FALSE(ZipReader::open(scratch.at("lie.zip"))) << count;
     }
     for (const std::uint64_t offset : {std::uint64_t{1} << 40, ~std::uint64_t{0} - 60}) {
-        write(scratch.at("lie.zip"), out + directory + zip64_end(1, directory.size(), offset));
+        write_file(scratch.at("lie.zip"), out + directory + zip64_end(1, directory.size(), offset));
         EXPECT_FALSE(ZipReader::open(scratch.at("lie.zip"))) << offset;
     }
 }
@@ -145,10 +139,10 @@ TEST(Zip, CountsThatCannotBeTrueAreErrors) {
 TEST(Zip, EncryptedAndStrangelyPackedEntriesAreRefused) {
     const Scratch scratch;
     constexpr std::uint32_t kEncrypted = 1, kBzip2 = 12, kZstd = 93;
-    write(scratch.at("a.zip"), zip_of({{"plain.png", "abc", 0, 0x352441c2},
-                                       {"secret.png", "abc", 0, 0x352441c2, kEncrypted, 0},
-                                       {"bzip2.png", "abc", 0, 0x352441c2, 0, kBzip2},
-                                       {"zstd.png", "abc", 0, 0x352441c2, 0, kZstd}}));
+    write_file(scratch.at("a.zip"), zip_of({{"plain.png", "abc", 0, 0x352441c2},
+                                            {"secret.png", "abc", 0, 0x352441c2, kEncrypted, 0},
+                                            {"bzip2.png", "abc", 0, 0x352441c2, 0, kBzip2},
+                                            {"zstd.png", "abc", 0, 0x352441c2, 0, kZstd}}));
     auto zip = ZipReader::open(scratch.at("a.zip"));
     ASSERT_TRUE(zip) << zip.error().text();
     EXPECT_THAT(zip->refused(), testing::ElementsAre("secret.png", "bzip2.png", "zstd.png"));
@@ -160,7 +154,7 @@ TEST(Zip, EncryptedAndStrangelyPackedEntriesAreRefused) {
 TEST(Zip, WrongSizesAreErrorsWhenRead) {
     const Scratch scratch;
     for (const std::uint32_t claimed : {2u, 4u, 400u}) {
-        write(scratch.at("a.zip"), zip_of({{"a.png", "abc", claimed, 0x352441c2}}));
+        write_file(scratch.at("a.zip"), zip_of({{"a.png", "abc", claimed, 0x352441c2}}));
         auto zip = ZipReader::open(scratch.at("a.zip"));
         if (!zip) continue;
         for (const ZipEntry& entry : zip->entries()) {
@@ -175,10 +169,10 @@ TEST(Zip, CutOrForeignFilesAreErrors) {
     const Scratch scratch;
     const std::string whole = zip_of({{"a.png", std::string(500, 'a'), 0, 0}});
     for (std::size_t cut = 0; cut < whole.size(); cut += 7) {
-        write(scratch.at("cut.zip"), whole.substr(0, cut));
+        write_file(scratch.at("cut.zip"), whole.substr(0, cut));
         EXPECT_FALSE(ZipReader::open(scratch.at("cut.zip"))) << cut;
     }
-    write(scratch.at("text.zip"), std::string(3000, 'z'));
+    write_file(scratch.at("text.zip"), std::string(3000, 'z'));
     EXPECT_FALSE(ZipReader::open(scratch.at("text.zip")));
     EXPECT_FALSE(ZipReader::open(scratch.at("none.zip")));
 }
@@ -190,7 +184,7 @@ TEST(Zip, DamageAnywhereIsAnErrorOrHarmless) {
     for (std::size_t at = 0; at < whole.size(); ++at) {
         std::string bytes = whole;
         bytes[at] = static_cast<char>(bytes[at] ^ 0xff);
-        write(scratch.at("x.zip"), bytes);
+        write_file(scratch.at("x.zip"), bytes);
         auto zip = ZipReader::open(scratch.at("x.zip"));
         if (!zip) continue;
         for (const ZipEntry& entry : zip->entries()) {
@@ -214,8 +208,9 @@ std::string png_claiming(std::uint32_t width, std::uint32_t height) {
 TEST(Pictures, HugeOnesAreRefusedByTheirHeader) {
     const Scratch scratch;
     // A TGA has no checksum over its header: 30,000 × 30,000 of 24 bits.
-    write(scratch.at("huge.tga"), std::string("\0\0\2\0\0\0\0\0\0\0\0\0", 12) + number(30'000, 2) +
-                                      number(30'000, 2) + number(24, 1) + number(0, 1));
+    write_file(scratch.at("huge.tga"), std::string("\0\0\2\0\0\0\0\0\0\0\0\0", 12) +
+                                           number(30'000, 2) + number(30'000, 2) + number(24, 1) +
+                                           number(0, 1));
     const auto huge = read_picture_file(scratch.at("huge.tga"));
     ASSERT_FALSE(huge);
     EXPECT_THAT(huge.error().message, HasSubstr("30000x30000"));
@@ -223,18 +218,19 @@ TEST(Pictures, HugeOnesAreRefusedByTheirHeader) {
 
 TEST(Pictures, ThatLieOrAreCutAreErrors) {
     const Scratch scratch;
-    write(scratch.at("lie.png"), png_claiming(60'000, 60'000));
+    write_file(scratch.at("lie.png"), png_claiming(60'000, 60'000));
     EXPECT_FALSE(read_picture_file(scratch.at("lie.png")));
     const std::string lying = png_claiming(60'000, 60'000);
     EXPECT_FALSE(decode_picture(std::as_bytes(std::span(lying))));
-    write(scratch.at("lie.tga"), std::string("\0\0\2\0\0\0\0\0\0\0\0\0", 12) + number(8000, 2) +
-                                     number(8000, 2) + number(24, 1) + number(0, 1) + "abc");
+    write_file(scratch.at("lie.tga"), std::string("\0\0\2\0\0\0\0\0\0\0\0\0", 12) +
+                                          number(8000, 2) + number(8000, 2) + number(24, 1) +
+                                          number(0, 1) + "abc");
     const auto lie = read_picture_file(scratch.at("lie.tga"));
     ASSERT_FALSE(lie);
     EXPECT_EQ(lie.error().code, ErrorCode::kUnreadable);
-    write(scratch.at("empty.png"), "");
+    write_file(scratch.at("empty.png"), "");
     EXPECT_FALSE(read_picture_file(scratch.at("empty.png")));
-    write(scratch.at("text.jpg"), "no picture");
+    write_file(scratch.at("text.jpg"), "no picture");
     EXPECT_FALSE(read_picture_file(scratch.at("text.jpg")));
 }
 

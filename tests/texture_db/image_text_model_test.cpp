@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "tests/texture_db/scratch.h"
 #include "tests/texture_db/tiny_onnx.h"
@@ -20,16 +19,12 @@ constexpr const char* kWords =
 constexpr const char* kModel = R"({"name": "tiny", "image": "image.onnx", "words": "words.json",
     "size": 16, "mean": [0.5, 0.5, 0.5], "deviation": [0.25, 0.25, 0.25], "scale": 10})";
 
-void write(const std::string& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
-
 std::string model_in(const std::string& folder, const std::string& json = kModel,
                      const std::string& words = kWords) {
     std::filesystem::create_directories(folder);
-    write(folder + "/model.json", json);
-    write(folder + "/image.onnx", mean_colour_onnx(16));
-    write(folder + "/words.json", words);
+    write_file(folder + "/model.json", json);
+    write_file(folder + "/image.onnx", mean_colour_onnx(16));
+    write_file(folder + "/words.json", words);
     return folder;
 }
 
@@ -82,7 +77,7 @@ TEST(ImageTextModel, SaysWhatIsWrongWithItsFolder) {
                 HasSubstr("has 2 numbers, the network gives 3"));
     EXPECT_THAT(fault("few", kModel, R"({"a": [1, 0, 0]})"), HasSubstr("fewer than two words"));
     const std::string damaged = model_in(scratch.at("damaged"));
-    write(damaged + "/image.onnx", mean_colour_onnx(16).substr(0, 40));
+    write_file(damaged + "/image.onnx", mean_colour_onnx(16).substr(0, 40));
     EXPECT_FALSE(ImageTextModel::open(damaged));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "engine/core/image.h"
@@ -30,6 +31,10 @@ class Scratch {
   private:
     std::string path_;
 };
+
+inline void write_file(const std::string& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
 
 /// Noise around one colour, different for every seed.
 inline ImageU8x3 noise_picture(int side, std::uint64_t seed, int r = 128, int g = 128, int b = 128,

@@ -44,7 +44,7 @@ TEST(Keys, IdsAreUnique) {
         EXPECT_TRUE(ids.insert(command.id).second) << command.id;
 }
 
-float luminance(ImU32 color) {
+float theme_luminance(ImU32 color) {
     const auto linear = [](int code) {
         const float v = static_cast<float>(code) / 255.0f;
         return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
@@ -54,7 +54,7 @@ float luminance(ImU32 color) {
 }
 
 float contrast(ImU32 a, ImU32 b) {
-    const float x = luminance(a), y = luminance(b);
+    const float x = theme_luminance(a), y = theme_luminance(b);
     return (std::max(x, y) + 0.05f) / (std::min(x, y) + 0.05f);
 }
 
@@ -71,8 +71,8 @@ TEST(ThemeTokens, TextCanBeReadOnEverySurface) {
 
 TEST(ThemeTokens, HeatGrowsLighterAllTheWay) {
     for (int k = 1; k <= 64; ++k)
-        EXPECT_GE(luminance(heat_color(static_cast<float>(k) / 64)),
-                  luminance(heat_color(static_cast<float>(k - 1) / 64)) - 1e-4f);
+        EXPECT_GE(theme_luminance(heat_color(static_cast<float>(k) / 64)),
+                  theme_luminance(heat_color(static_cast<float>(k - 1) / 64)) - 1e-4f);
 }
 
 TEST(Canvas, CoordinatesRoundTrip) {

@@ -75,7 +75,7 @@ TEST(MemoryBounds, PlayingALongShotKeepsNoMoreThanItsBudget) {
 }
 
 TEST(MemoryBounds, MattesOfManyFramesKeepNoMoreThanTheirBudget) {
-    constexpr Size kSize{1920, 1080};
+    constexpr Size kMatteSize{1920, 1080};
     constexpr std::size_t kMatte = std::size_t{1920} * 1080;
     MatteShelf shelf(6 * kMatte);
     std::vector<std::weak_ptr<const Matte>> seen;
@@ -83,7 +83,7 @@ TEST(MemoryBounds, MattesOfManyFramesKeepNoMoreThanTheirBudget) {
         const std::string name = "matte " + std::to_string(frame);
         MattePtr matte;
         ASSERT_TRUE(wait([&] {
-            matte = shelf.get(name, [&]() -> Expected<Matte> { return Matte(kSize, 7); });
+            matte = shelf.get(name, [&]() -> Expected<Matte> { return Matte(kMatteSize, 7); });
             return matte != nullptr;
         }));
         seen.push_back(matte);

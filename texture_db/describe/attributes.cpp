@@ -5,12 +5,12 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "texture_db/describe/feature_parts.h"
 #include "texture_db/describe/features.h"
 
 namespace weft {
 namespace {
 
-constexpr int kSide = 96;
 using A = TextureAttribute;
 
 float unit(float v) {
@@ -83,8 +83,8 @@ Repetition repetition_of(const cv::Mat& l) {
     cv::Mat broad, flat;
     cv::GaussianBlur(l, broad, {}, 24.0);
     flat = l - broad;
-    cv::Mat padded = cv::Mat::zeros(2 * kSide, 2 * kSide, CV_32F);
-    flat.copyTo(padded(cv::Rect(0, 0, kSide, kSide)));
+    cv::Mat padded = cv::Mat::zeros(2 * kDescribedSide, 2 * kDescribedSide, CV_32F);
+    flat.copyTo(padded(cv::Rect(0, 0, kDescribedSide, kDescribedSide)));
     cv::Mat spectrum, power, acf;
     cv::dft(padded, spectrum, cv::DFT_COMPLEX_OUTPUT);
     cv::mulSpectrums(spectrum, spectrum, power, 0, true);
@@ -94,9 +94,11 @@ Repetition repetition_of(const cv::Mat& l) {
     if (zero < 1e-3f) return r;
     constexpr int kReach = 48;
     const auto at = [&](int dx, int dy) {
-        const int x = (dx + 2 * kSide) % (2 * kSide), y = (dy + 2 * kSide) % (2 * kSide);
-        const float overlap = static_cast<float>((kSide - std::abs(dx)) * (kSide - std::abs(dy))) /
-                              static_cast<float>(kSide * kSide);
+        const int x = (dx + 2 * kDescribedSide) % (2 * kDescribedSide),
+                  y = (dy + 2 * kDescribedSide) % (2 * kDescribedSide);
+        const float overlap =
+            static_cast<float>((kDescribedSide - std::abs(dx)) * (kDescribedSide - std::abs(dy))) /
+            static_cast<float>(kDescribedSide * kDescribedSide);
         return acf.at<float>(y, x) / zero / overlap;
     };
     // Mean over angles by radius; the structure is as large as the radius where it falls below

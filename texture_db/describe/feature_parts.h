@@ -5,7 +5,15 @@
 #include <span>
 #include <vector>
 
+namespace cv {
+class Mat;
+}
+
 namespace weft {
+
+inline constexpr int kDescribedSide = 96;  ///< Of a sample that is described, px.
+
+[[nodiscard]] std::span<const float> values_of(const cv::Mat& plane);
 
 /// Standard deviation, skewness and kurtosis of a plane, preceded by its mean if wanted. `width`: a
 /// multiple of 8.

@@ -13,9 +13,6 @@
 namespace weft {
 namespace {
 
-constexpr int kSide = 96;
-constexpr double kPi = std::numbers::pi;
-
 using Features = std::vector<float>;
 
 struct Planes {
@@ -23,7 +20,8 @@ struct Planes {
 };
 
 Planes planes_of(ViewU8x3 sample) {
-    const cv::Mat rgb(kSide, kSide, CV_8UC3, const_cast<std::uint8_t*>(sample.data()),
+    const cv::Mat rgb(kDescribedSide, kDescribedSide, CV_8UC3,
+                      const_cast<std::uint8_t*>(sample.data()),
                       static_cast<std::size_t>(sample.stride()));
     cv::Mat floats, lab;
     rgb.convertTo(floats, CV_32FC3, 1.0 / 255.0);
@@ -31,10 +29,6 @@ Planes planes_of(ViewU8x3 sample) {
     cv::Mat split[3];
     cv::split(lab, split);
     return {split[0] / 100.0, split[1] / 60.0, split[2] / 60.0};
-}
-
-std::span<const float> values_of(const cv::Mat& plane) {
-    return {plane.ptr<float>(), plane.total()};
 }
 
 double correlation_of(const cv::Mat& a, const cv::Mat& b) {
@@ -71,7 +65,7 @@ void add_color_histograms(const Planes& p, Features& out) {
     for (std::size_t i = 0; i < p.l.total(); ++i) {
         const double c = std::hypot(a[i], b[i]);
         soft(light, static_cast<double>(l[i]) * 7, 1, false);
-        soft(hue, (std::atan2(b[i], a[i]) / (2 * kPi) + 1) * 8, c, true);
+        soft(hue, (std::atan2(b[i], a[i]) / (2 * std::numbers::pi) + 1) * 8, c, true);
         soft(chroma, std::sqrt(c) * 5, 1, false);
     }
     const auto n = static_cast<double>(p.l.total());
@@ -129,9 +123,10 @@ void add_color_energies(const Planes& p, Features& out) {
         for (const double on_plane : {0.8, 1.6, 3.2, 6.4, 12.8}) {
             // The coarse bands on half the grid.
             const bool coarse = on_plane > 5;
-            if (coarse && last.rows == kSide) {
+            if (coarse && last.rows == kDescribedSide) {
                 cv::Mat half;
-                cv::resize(last, half, {kSide / 2, kSide / 2}, 0, 0, cv::INTER_AREA);
+                cv::resize(last, half, {kDescribedSide / 2, kDescribedSide / 2}, 0, 0,
+                           cv::INTER_AREA);
                 last = half;
             }
             const double sigma = coarse ? on_plane / 2 : on_plane;
@@ -158,7 +153,7 @@ void add_gradients(const cv::Mat& l, Features& out) {
         const double m = std::hypot(x[i], y[i]);
         const double at = std::clamp(std::log2(m / 0.002 + 1), 0.0, 7.0);
         strength[static_cast<std::size_t>(at)] += 1;
-        double turn = std::atan2(y[i], x[i]) / kPi + 1;
+        double turn = std::atan2(y[i], x[i]) / std::numbers::pi + 1;
         turn -= std::floor(turn);
         direction[std::min<std::size_t>(static_cast<std::size_t>(turn * 8), 7)] += m;
         sum += m;
@@ -171,19 +166,23 @@ void add_gradients(const cv::Mat& l, Features& out) {
 
 }  // namespace
 
+std::span<const float> values_of(const cv::Mat& plane) {
+    return {plane.ptr<float>(), plane.total()};
+}
+
 std::vector<float> texture_features(ViewU8x3 sample) {
     const Planes p = planes_of(sample);
     Features out;
     out.reserve(480);
     for (const cv::Mat* plane : {&p.l, &p.a, &p.b}) {
-        add_moments(values_of(*plane), kSide, true, out);
+        add_moments(values_of(*plane), kDescribedSide, true, out);
         add_percentiles(*plane, out);
     }
     add_color_histograms(p, out);
     add_binary_patterns(p.l, 1, out);
     add_binary_patterns(p.l, 2, out);
     cv::Mat half;
-    cv::resize(p.l, half, {kSide / 2, kSide / 2}, 0, 0, cv::INTER_AREA);
+    cv::resize(p.l, half, {kDescribedSide / 2, kDescribedSide / 2}, 0, 0, cv::INTER_AREA);
     add_binary_patterns(half, 2, out);
     add_oriented_energies(values_of(p.l), out);
     add_color_energies(p, out);
@@ -194,21 +193,22 @@ std::vector<float> texture_features(ViewU8x3 sample) {
 
 int texture_feature_count() {
     static const int kCount =
-        static_cast<int>(texture_features(ImageU8x3(kSide, kSide, 128)).size());
+        static_cast<int>(texture_features(ImageU8x3(kDescribedSide, kDescribedSide, 128)).size());
     return kCount;
 }
 
 ImageU8x3 middle_sample(ViewU8x3 picture) {
-    ImageU8x3 out(kSide, kSide);
+    ImageU8x3 out(kDescribedSide, kDescribedSide);
     const auto mirrored = [](int i, int n) {
         if (n == 1) return 0;
         const int period = 2 * n - 2;
         i = ((i % period) + period) % period;
         return i < n ? i : period - i;
     };
-    const int x0 = (picture.width() - kSide) / 2, y0 = (picture.height() - kSide) / 2;
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
+    const int x0 = (picture.width() - kDescribedSide) / 2,
+              y0 = (picture.height() - kDescribedSide) / 2;
+    for (int y = 0; y < kDescribedSide; ++y) {
+        for (int x = 0; x < kDescribedSide; ++x) {
             const std::uint8_t* from = picture.pixel(mirrored(x0 + x, picture.width()),
                                                      mirrored(y0 + y, picture.height()));
             std::copy_n(from, 3, out.pixel(x, y));

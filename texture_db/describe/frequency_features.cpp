@@ -11,13 +11,7 @@
 namespace weft {
 namespace {
 
-constexpr int kSide = 96;
 constexpr int kScales = 5, kOrientations = 6;
-constexpr double kPi = std::numbers::pi;
-
-std::span<const float> values_of(const cv::Mat& plane) {
-    return {plane.ptr<float>(), plane.total()};
-}
 
 // Log-Gabor filters in the frequency domain (Field 1987): wavelengths 3, 6, 12, 24, 48 px. The
 // output of a coarse one fits on a coarser grid, of this many samples a side.
@@ -38,18 +32,18 @@ const std::array<cv::Mat, kScales * kOrientations>& filters() {
                 const double centre = 1.0 / (3.0 * std::pow(2.0, s));
                 for (int y = 0; y < n; ++y) {
                     for (int x = 0; x < n; ++x) {
-                        const double u = frequency(x, n) / double{kSide};
-                        const double v = frequency(y, n) / double{kSide};
+                        const double u = frequency(x, n) / double{kDescribedSide};
+                        const double v = frequency(y, n) / double{kDescribedSide};
                         const double radius = std::hypot(u, v);
                         float value = 0;
                         if (radius > 0) {
                             const double r = std::log(radius / centre) / std::log(1.7);
-                            double turn = std::atan2(v, u) - o * kPi / kOrientations;
+                            double turn = std::atan2(v, u) - o * std::numbers::pi / kOrientations;
                             turn = std::atan2(std::sin(turn), std::cos(turn));
-                            const double t = turn / (kPi / kOrientations * 0.75);
+                            const double t = turn / (std::numbers::pi / kOrientations * 0.75);
                             // The inverse transform is scaled here.
                             value = static_cast<float>(std::exp(-0.5 * (r * r + t * t)) /
-                                                       (kSide * kSide));
+                                                       (kDescribedSide * kDescribedSide));
                         }
                         f.at<cv::Vec2f>(y, x) = {value, value};
                     }
@@ -87,15 +81,15 @@ cv::Mat thinned(const cv::Mat& grid, int n) {
 }
 
 cv::Mat tapered(std::span<const float> values) {
-    const cv::Mat plane(kSide, kSide, CV_32F, const_cast<float*>(values.data()));
+    const cv::Mat plane(kDescribedSide, kDescribedSide, CV_32F, const_cast<float*>(values.data()));
     static const cv::Mat kWindow = [] {
-        cv::Mat w(kSide, kSide, CV_32F);
+        cv::Mat w(kDescribedSide, kDescribedSide, CV_32F);
         const auto edge = [](int i) {
-            const double d = std::min(i, kSide - 1 - i) + 0.5;
-            return d >= 10 ? 1.0 : 0.5 - 0.5 * std::cos(kPi * d / 10);
+            const double d = std::min(i, kDescribedSide - 1 - i) + 0.5;
+            return d >= 10 ? 1.0 : 0.5 - 0.5 * std::cos(std::numbers::pi * d / 10);
         };
-        for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < kSide; ++x)
+        for (int y = 0; y < kDescribedSide; ++y)
+            for (int x = 0; x < kDescribedSide; ++x)
                 w.at<float>(y, x) = static_cast<float>(edge(y) * edge(x));
         return w;
     }();
@@ -182,9 +176,9 @@ void add_oriented_energies(std::span<const float> plane, std::vector<float>& out
             double re = 0, im = 0;
             for (int o = 0; o < kOrientations; ++o) {
                 re += energy[s][static_cast<std::size_t>(o)] *
-                      std::cos(2 * kPi * k * o / kOrientations);
+                      std::cos(2 * std::numbers::pi * k * o / kOrientations);
                 im += energy[s][static_cast<std::size_t>(o)] *
-                      std::sin(2 * kPi * k * o / kOrientations);
+                      std::sin(2 * std::numbers::pi * k * o / kOrientations);
             }
             out.push_back(static_cast<float>(std::hypot(re, im) / (sum + 1e-6)));
         }
@@ -206,11 +200,13 @@ void add_repetition(std::span<const float> plane, std::vector<float>& out) {
         double sum = 0, low = 1, high = -1;
         constexpr int kAngles = 24;
         for (int k = 0; k < kAngles; ++k) {
-            const double t = kPi * k / kAngles;
+            const double t = std::numbers::pi * k / kAngles;
             const int x = static_cast<int>(std::lround(radius * std::cos(t)));
             const int y = static_cast<int>(std::lround(radius * std::sin(t)));
             const double v =
-                static_cast<double>(acf.at<float>((y + kSide) % kSide, (x + kSide) % kSide)) / zero;
+                static_cast<double>(acf.at<float>((y + kDescribedSide) % kDescribedSide,
+                                                  (x + kDescribedSide) % kDescribedSide)) /
+                zero;
             sum += v;
             low = std::min(low, v);
             high = std::max(high, v);

@@ -17,19 +17,19 @@
 #include "texture_db/describe/sample_codec.h"
 
 namespace weft {
+struct ModelDescription {
+    std::string name, image, words;
+    int size = 224;
+    std::array<float, 3> mean{0, 0, 0}, deviation{1, 1, 1};
+    float scale = 100;
+};
+
 namespace {
 
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{2} << 30;
-
-struct Description {
-    std::string name, image, words;
-    int size = 224;
-    std::array<float, 3> mean{0, 0, 0}, deviation{1, 1, 1};
-    float scale = 100;
-};
 
 tl::unexpected<Error> unusable(const std::string& folder, const std::string& why) {
     return fail(ErrorCode::kUnreadable, "The image–text model " + folder +
@@ -52,8 +52,8 @@ bool plain(const std::string& file) {
     return !file.empty() && file.find('/') == std::string::npos && file != "." && file != "..";
 }
 
-Expected<Description> description_of(const std::string& folder, const std::string& text) {
-    Description d;
+Expected<ModelDescription> description_of(const std::string& folder, const std::string& text) {
+    ModelDescription d;
     try {
         const Json json = Json::parse(text);
         d.name = json.value("name", fs::path(folder).filename().string());
@@ -82,7 +82,7 @@ void make_unit(std::vector<float>& v) {
 }  // namespace
 
 struct ImageTextModel::Parts {
-    Description described;
+    ModelDescription described;
     std::string identity;
     cv::dnn::Net net;
     std::map<std::string, std::vector<float>, std::less<>> words;
@@ -147,7 +147,7 @@ Expected<ImageTextModel> ImageTextModel::open(const std::string& folder) {
 }
 
 Expected<std::vector<float>> ImageTextModel::encode_image(ViewU8x3 picture) {
-    const Description& d = parts_->described;
+    const ModelDescription& d = parts_->described;
     const ImageU8x3 fitted = resized(picture, {d.size, d.size});
     const std::array<int, 4> shape{1, 3, d.size, d.size};
     cv::Mat input(4, shape.data(), CV_32F);

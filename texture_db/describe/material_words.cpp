@@ -20,7 +20,7 @@ bool is_upper(char c) {
 // Words that mean a material in file names although an artist would not type them; and words that
 // cancel a material's word inside them ("glass" in "grass").
 const std::map<std::string, std::string, std::less<>>& path_words() {
-    static const auto kWords = [] {
+    static const auto kPathWords = [] {
         std::map<std::string, std::string, std::less<>> words;
         for (const MaterialEntry& entry : material_table()) {
             words.emplace(entry.name, entry.name);
@@ -67,7 +67,7 @@ const std::map<std::string, std::string, std::less<>>& path_words() {
             words.erase(word);
         return words;
     }();
-    return kWords;
+    return kPathWords;
 }
 
 }  // namespace

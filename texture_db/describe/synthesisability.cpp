@@ -3,16 +3,16 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "texture_db/describe/feature_parts.h"
 #include "texture_db/describe/features.h"
 
 namespace weft {
 namespace {
 
-constexpr int kSide = 96;
-
 // L / 100 of CIE Lab.
 cv::Mat lightness_of(ViewU8x3 sample) {
-    const cv::Mat rgb(kSide, kSide, CV_8UC3, const_cast<std::uint8_t*>(sample.data()),
+    const cv::Mat rgb(kDescribedSide, kDescribedSide, CV_8UC3,
+                      const_cast<std::uint8_t*>(sample.data()),
                       static_cast<std::size_t>(sample.stride()));
     cv::Mat floats, lab, lightness;
     rgb.convertTo(floats, CV_32FC3, 1.0 / 255.0);
@@ -54,8 +54,8 @@ float synthesisability(ViewU8x3 sample) {
         double best = 1e9;
         for (int shift = -24; shift <= 24; shift += 2) {
             for (const int overlap : {20, 28, 36}) {
-                const int y0 = std::max(0, shift), rows = kSide - std::abs(shift);
-                const cv::Mat right = t(cv::Rect(kSide - overlap, y0, overlap, rows));
+                const int y0 = std::max(0, shift), rows = kDescribedSide - std::abs(shift);
+                const cv::Mat right = t(cv::Rect(kDescribedSide - overlap, y0, overlap, rows));
                 const cv::Mat left = t(cv::Rect(0, y0 - shift, overlap, rows));
                 const cv::Mat difference = right - left;
                 best = std::min(

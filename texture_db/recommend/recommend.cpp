@@ -11,9 +11,6 @@ namespace weft {
 namespace {
 
 using A = TextureAttribute;
-float near(float difference, float width) {
-    return std::exp(-difference * difference / (2 * width * width));
-}
 
 // How well two textures fit two regions together: distinguishable, but of one style.
 float coherence_of(const IndexedSample& a, const IndexedSample& b) {

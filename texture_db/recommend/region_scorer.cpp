@@ -20,14 +20,6 @@ constexpr float kNameless = 0.04f;  // the weight of roles that the region's nam
 constexpr float kServes = 0.7f;     // share of the best from which a material counts fully
 constexpr float kLikelihoodWidth = 2.0f;  // of distances between descriptors
 
-// exp(−d²/2w²), the exponent alone: products of several take one exp.
-float away(float difference, float width) {
-    return difference * difference / (2 * width * width);
-}
-float near(float difference, float width) {
-    return std::exp(-away(difference, width));
-}
-
 float ramp(float v) {
     return 1 / (1 + std::exp(-v));
 }

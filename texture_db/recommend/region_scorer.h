@@ -2,6 +2,7 @@
 // Internal: scores every sample of a library for one region, by terms; suggestions.h selects the
 // ones to show.
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,15 @@
 #include "texture_db/recommend/region_look.h"
 
 namespace weft {
+
+// exp(−d²/2w²), the exponent alone: products of several take one exp.
+[[nodiscard]] inline float away(float difference, float width) {
+    return difference * difference / (2 * width * width);
+}
+/// 1 where there is no difference, down to 0.
+[[nodiscard]] inline float near(float difference, float width) {
+    return std::exp(-away(difference, width));
+}
 
 struct ScoredSample {
     std::uint32_t sample = 0;  ///< Position in the index.

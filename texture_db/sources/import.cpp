@@ -16,7 +16,7 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t kBatch = 12;
+constexpr std::size_t kImportBatch = 12;
 
 struct Found {
     std::string file, category;
@@ -120,12 +120,12 @@ Expected<ImportReport> import_pictures(TextureLibrary& library,
             todo.push_back(std::move(f));
     }
     const ChoiceRules rules{options.most_per_picture, options.strict};
-    for (std::size_t at = 0; at < todo.size(); at += kBatch) {
+    for (std::size_t at = 0; at < todo.size(); at += kImportBatch) {
         if (cancel.cancelled()) {
             return fail(static_cast<ErrorCode>(cancel.reason()),
                         "The import was stopped; run it again to continue.");
         }
-        const std::size_t n = std::min(kBatch, todo.size() - at);
+        const std::size_t n = std::min(kImportBatch, todo.size() - at);
         std::vector<PhotoSamples> done(n);
         parallel_for(n, [&](std::size_t i) {
             done[i] = samples_of(photo_of(todo[at + i], options), rules);

@@ -1,5 +1,3 @@
-#include <time.h>
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -22,12 +20,6 @@ namespace weft {
 namespace {
 
 constexpr int kSamplePx = 96;
-
-double cpu_s() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 // Mean and standard deviation over runs.
 struct Figure {
@@ -61,22 +53,18 @@ Expected<Runs> measure(ViewU8x3 sample, const PlaneOptions& options, int runs) {
     return out;
 }
 
-nlohmann::ordered_json json_of(const Figure& f) {
+nlohmann::ordered_json figures_json(const Figure& f) {
     return {{"mean", f.mean()}, {"deviation", f.deviation()}};
 }
 
-nlohmann::ordered_json json_of(const Runs& r) {
-    return {{"search_s", json_of(r.search)},
-            {"seam_s", json_of(r.seam)},
-            {"refine_s", json_of(r.refine)},
-            {"other_s", json_of(r.other)},
-            {"total_s", json_of(r.total)},
-            {"cpu_s", json_of(r.cpu)},
-            {"seam_energy_per_area", r.energy.mean()},
-            {"peak_graph_bytes", r.graph_bytes}};
+nlohmann::ordered_json figures_json(const Runs& r) {
+    return {{"search_s", figures_json(r.search)},      {"seam_s", figures_json(r.seam)},
+            {"refine_s", figures_json(r.refine)},      {"other_s", figures_json(r.other)},
+            {"total_s", figures_json(r.total)},        {"cpu_s", figures_json(r.cpu)},
+            {"seam_energy_per_area", r.energy.mean()}, {"peak_graph_bytes", r.graph_bytes}};
 }
 
-std::string line_of(const std::string& name, const Runs& r) {
+std::string runs_line(const std::string& name, const Runs& r) {
     char text[256];
     const auto percent = [&](const Figure& f) { return 100 * f.mean() / r.total.mean(); };
     std::snprintf(text, sizeof text,
@@ -146,10 +134,10 @@ class Bench {
         plane.backend = &backend_;
         WEFT_TRY(result, measure(sample_, plane, runs));
         const Repetition repetition = measure_repetition(result.last);
-        nlohmann::ordered_json entry = json_of(result);
+        nlohmann::ordered_json entry = figures_json(result);
         entry["repetition"] = repetition.peak;
         json_[group][name] = std::move(entry);
-        if (!json_output()) print(stdout, line_of(name, result));
+        if (!json_output()) print(stdout, runs_line(name, result));
         last_ = std::move(result.last);
         return {};
     }

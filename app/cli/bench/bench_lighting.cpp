@@ -19,12 +19,6 @@ namespace {
 
 constexpr int kFrames = 8;  // all are used as evidence and all are relit
 
-double cpu_s() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 // The plane in linear light under a soft shadow that moves from frame to frame.
 ImageF3 plate_of(const ImageU8x3& plane, int frame) {
     ImageF3 out(plane.size());
@@ -71,6 +65,12 @@ double light_frames(const std::vector<ImageF3>& plates, FlowQuality quality, Ima
 }
 
 }  // namespace
+
+double cpu_s() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 Expected<std::vector<LightingCost>> bench_lighting(const ImageU8x3& sample,
                                                    const std::vector<int>& sides, int runs) {

@@ -11,6 +11,9 @@
 
 namespace weft {
 
+/// The CPU time of this process so far, all threads together.
+[[nodiscard]] double cpu_s();
+
 /// CPU seconds, mean over runs. A frame's relighting includes sampling the plate, separating paint
 /// from light over the clip, the shading, and the gain on the texture.
 struct LightingCost {

@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Rounds scores to four digits for readability.
-double number(float v) {
+double four_digits(float v) {
     return std::round(static_cast<double>(v) * 1e4) / 1e4;
 }
 
@@ -19,7 +19,7 @@ Json hit_json(const SearchHit& hit) {
     return {{"id", hit.id},
             {"material", hit.material},
             {"name", hit.name},
-            {"score", number(hit.score)},
+            {"score", four_digits(hit.score)},
             {"reasons", hit.reasons}};
 }
 
@@ -42,17 +42,17 @@ Json suggestion_json(const Suggestion& s) {
     return {{"id", s.id},
             {"material", s.material},
             {"name", s.name},
-            {"score", number(s.score)},
+            {"score", four_digits(s.score)},
             {"reasons", s.reasons},
             {"parts",
-             {{"material", number(p.material)},
-              {"use", number(p.use)},
-              {"colour", number(p.colour)},
-              {"style", number(p.style)},
-              {"scale", number(p.scale)},
-              {"synthesis", number(p.synthesis)},
-              {"wish", number(p.adjustment)},
-              {"coherence", number(p.coherence)}}}};
+             {{"material", four_digits(p.material)},
+              {"use", four_digits(p.use)},
+              {"colour", four_digits(p.colour)},
+              {"style", four_digits(p.style)},
+              {"scale", four_digits(p.scale)},
+              {"synthesis", four_digits(p.synthesis)},
+              {"wish", four_digits(p.adjustment)},
+              {"coherence", four_digits(p.coherence)}}}};
 }
 
 Json suggestions_json(const std::vector<Suggestion>& suggestions) {
@@ -75,7 +75,7 @@ Json info_json(const TextureInfo& i) {
                                 "directionality", "line_angle", "gloss"};
     Json attributes = Json::object();
     for (std::size_t a = 0; a < kTextureAttributes; ++a)
-        attributes[kNames[a]] = number(i.measured.attributes.values[a]);
+        attributes[kNames[a]] = four_digits(i.measured.attributes.values[a]);
     const LabColor& c = i.measured.mean;
     return {{"id", i.id},
             {"material", i.material},
@@ -83,7 +83,7 @@ Json info_json(const TextureInfo& i) {
             {"category", i.category},
             {"tags", i.tags},
             {"colour", colour_name(c)},
-            {"lab", {number(c.l), number(c.a), number(c.b)}},
+            {"lab", {four_digits(c.l), four_digits(c.a), four_digits(c.b)}},
             {"looks", attribute_words(i.measured)},
             {"attributes", attributes},
             {"origin", name_of(i.origin)},
@@ -93,7 +93,7 @@ Json info_json(const TextureInfo& i) {
             {"licence", i.licence},
             {"original_size", {i.original_size.width, i.original_size.height}},
             {"original_in_file", i.original_in_file},
-            {"synthesisability", number(i.synthesisability)},
+            {"synthesisability", four_digits(i.synthesisability)},
             {"favourite", i.favourite},
             {"rating", i.rating}};
 }
@@ -149,7 +149,7 @@ Json to_json(const Recommendation& r) {
     }
     Json together = Json::array();
     for (const SceneSuggestion& s : r.together)
-        together.push_back({{"score", number(s.score)},
+        together.push_back({{"score", four_digits(s.score)},
                             {"why", s.why},
                             {"results", suggestions_json(s.per_region)}});
     Json out{{"regions", regions}, {"together", together}, {"seconds", r.seconds}};

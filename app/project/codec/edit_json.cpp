@@ -13,7 +13,6 @@ namespace {
 
 using namespace json_codec;
 
-constexpr std::int64_t kMaxFrame = kMaxFrameNumber;
 constexpr std::int64_t kMaxIndex = 1'000'000;
 
 // ---- fields shared by several edits -----------------------------------------------------------
@@ -29,7 +28,7 @@ OrderedJson write_region_ref(const RegionRef& ref) {
 }
 
 Expected<int> read_frame(ObjectReader& object) {
-    WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+    WEFT_TRY(frame, object.integer("frame", -kMaxFrameNumber, kMaxFrameNumber));
     return static_cast<int>(frame);
 }
 

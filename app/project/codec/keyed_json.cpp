@@ -4,17 +4,16 @@
 #include <algorithm>
 
 #include "app/project/codec/json_codec.h"
-#include "app/project/parameter_entry.h"
+#include "engine/core/frame_range.h"
 
 namespace weft::json_codec {
 namespace {
 
-constexpr auto kMaxFrame = static_cast<std::int64_t>(parameter_entry::kMaxFrame);
 constexpr std::size_t kMostNumbers = 16;
 
 Expected<NumberKey> read_key(const Json& json, const std::string& path) {
     WEFT_TRY(object, ObjectReader::open(json, path));
-    WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+    WEFT_TRY(frame, object.integer("frame", -kMaxFrameNumber, kMaxFrameNumber));
     NumberKey key{static_cast<int>(frame), {}};
     const Json* value = object.take("value");
     if (const Json* name = object.take("interpolation")) {

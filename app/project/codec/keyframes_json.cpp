@@ -4,14 +4,9 @@
 #include <utility>
 
 #include "app/project/codec/json_codec.h"
-#include "app/project/parameter_entry.h"
+#include "engine/core/frame_range.h"
 
 namespace weft::json_codec {
-namespace {
-
-constexpr std::int64_t kMaxFrame = static_cast<std::int64_t>(parameter_entry::kMaxFrame);
-
-}  // namespace
 
 Expected<std::map<int, MatteKeyframe>> read_keyframes(const Json& json, const std::string& path) {
     if (!json.is_array())
@@ -20,7 +15,7 @@ Expected<std::map<int, MatteKeyframe>> read_keyframes(const Json& json, const st
     std::map<int, MatteKeyframe> out;
     for (std::size_t i = 0; i < json.size(); ++i) {
         WEFT_TRY(object, ObjectReader::open(json[i], fmt::format("{}[{}]", path, i)));
-        WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+        WEFT_TRY(frame, object.integer("frame", -kMaxFrameNumber, kMaxFrameNumber));
         WEFT_TRY(file, object.text("path"));
         if (file.find('\0') != std::string::npos)
             return fail_at(object.path_of("path"),
@@ -47,7 +42,7 @@ Expected<std::map<int, ConfirmedEdge>> read_confirmed(const Json& json, const st
     std::map<int, ConfirmedEdge> out;
     for (std::size_t i = 0; i < json.size(); ++i) {
         WEFT_TRY(object, ObjectReader::open(json[i], fmt::format("{}[{}]", path, i)));
-        WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+        WEFT_TRY(frame, object.integer("frame", -kMaxFrameNumber, kMaxFrameNumber));
         ConfirmedEdge edge;
         for (const auto& [key, file] : {std::pair{"path", &edge.path}, {"area", &edge.area}}) {
             WEFT_TRY(text, object.text(key));

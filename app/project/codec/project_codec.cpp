@@ -8,11 +8,10 @@
 #include "app/project/codec/json_codec.h"
 #include "app/project/codec/project_json.h"
 #include "app/project/parameter_entry.h"
+#include "engine/core/frame_range.h"
 
 namespace weft::json_codec {
 namespace {
-
-constexpr std::int64_t kMaxFrame = static_cast<std::int64_t>(parameter_entry::kMaxFrame);
 
 /// A nested object of a region or project, with the member that holds it.
 template <class Owner>
@@ -77,7 +76,7 @@ Expected<std::map<int, std::vector<CorrectionPin>>> read_corrections(const Json&
     std::map<int, std::vector<CorrectionPin>> out;
     for (std::size_t i = 0; i < json.size(); ++i) {
         WEFT_TRY(object, ObjectReader::open(json[i], fmt::format("{}[{}]", path, i)));
-        WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+        WEFT_TRY(frame, object.integer("frame", -kMaxFrameNumber, kMaxFrameNumber));
         const Json* list = object.take("pins");
         if (!list || list->empty()) return fail_at(object.path(), "A correction needs its pins");
         WEFT_TRY(pins, read_pins(*list, object.path_of("pins")));

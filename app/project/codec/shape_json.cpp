@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/project/codec/json_codec.h"
-#include "app/project/parameter_entry.h"
+#include "engine/core/frame_range.h"
 
 namespace weft::json_codec {
 namespace {
@@ -14,7 +14,6 @@ namespace {
 constexpr std::size_t kMostPoints = 100'000;
 constexpr std::size_t kNumbers = 7;
 constexpr std::size_t kMostKeys = 100'000;
-constexpr auto kMaxFrame = static_cast<std::int64_t>(parameter_entry::kMaxFrame);
 constexpr std::array<std::pair<ShapeFollow, std::string_view>, 4> kFollows{
     {{ShapeFollow::kNone, "none"},
      {ShapeFollow::kPosition, "position"},
@@ -53,7 +52,7 @@ Expected<std::map<int, RotoShape>> read_shape_keys(const Json& json, const std::
     for (std::size_t i = 0; i < json.size(); ++i) {
         const std::string where = fmt::format("{}[{}]", path, i);
         WEFT_TRY(object, ObjectReader::open(json[i], where));
-        WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+        WEFT_TRY(frame, object.integer("frame", -kMaxFrameNumber, kMaxFrameNumber));
         WEFT_TRY(shape, read_points(object, where));
         WEFT_CHECK_OK(object.expect_no_rest());
         if (!out.emplace(static_cast<int>(frame), std::move(shape)).second)

@@ -3,7 +3,7 @@
 
 #include "app/project/codec/json_codec.h"
 #include "app/project/codec/project_json.h"
-#include "app/project/parameter_entry.h"
+#include "engine/core/frame_range.h"
 
 namespace weft {
 namespace json_codec {
@@ -11,7 +11,6 @@ namespace {
 
 using glm::dvec2;
 
-constexpr auto kMaxFrame = static_cast<std::int64_t>(parameter_entry::kMaxFrame);
 constexpr std::array<std::pair<const char*, std::optional<dvec2> WarpPoint::*>, 4> kHandles{
     {{"left", &WarpPoint::left},
      {"right", &WarpPoint::right},
@@ -25,8 +24,8 @@ Expected<dvec2> read_place(const Json* json, const std::string& path) {
     return fail_at(path, "This must be two numbers, [x, y]");
 }
 
-Expected<std::vector<WarpPoint>> read_points(const Json& json, const std::string& path,
-                                             std::size_t most) {
+Expected<std::vector<WarpPoint>> read_grid(const Json& json, const std::string& path,
+                                           std::size_t most) {
     if (!json.is_array())
         return fail_at(path,
                        fmt::format("This is {}, but must be a list of points", type_of(json)));
@@ -56,11 +55,11 @@ Status read_warp_keys(const Json& json, const std::string& path, GridWarp& warp)
                        fmt::format("This must be a list of at most {} keys", GridWarp::kMostKeys));
     for (std::size_t i = 0; i < json.size(); ++i) {
         WEFT_TRY(object, ObjectReader::open(json[i], fmt::format("{}[{}]", path, i)));
-        WEFT_TRY(frame, object.integer("frame", -kMaxFrame, kMaxFrame));
+        WEFT_TRY(frame, object.integer("frame", -kMaxFrameNumber, kMaxFrameNumber));
         const Json* given = object.take("points");
         WEFT_CHECK_OK(object.expect_no_rest());
         if (!given) return fail_at(object.path_of("points"), "This key is missing; add it");
-        WEFT_TRY(points, read_points(*given, object.path_of("points"), warp.count()));
+        WEFT_TRY(points, read_grid(*given, object.path_of("points"), warp.count()));
         const std::size_t before = warp.keys.size();
         set_key(warp, static_cast<int>(frame), std::move(points));
         if (warp.keys.size() == before)
@@ -108,7 +107,7 @@ Expected<ParameterValue> read_warp(const Json& value, const std::string& path) {
         WEFT_CHECK_OK(read_warp_keys(*keys, object.path_of("keys"), warp));
     WEFT_CHECK_OK(object.expect_no_rest());
     if (points) {
-        WEFT_TRY(read, read_points(*points, object.path_of("points"), warp.count()));
+        WEFT_TRY(read, read_grid(*points, object.path_of("points"), warp.count()));
         warp.points = std::move(read);
     } else if (!warp.keys.empty()) {
         warp.points = warp.keys.front().second;
