@@ -1,5 +1,6 @@
 #include "app/cli/command_line.h"
 
+#include "app/cli/help/bash_completion.h"
 #include "app/cli/help/man_page.h"
 #include "app/cli/help/usage.h"
 
@@ -15,14 +16,21 @@ void add_json_flag(CLI::App& app) {
         add_json_flag(*command);
 }
 
-// For packagers only, so hidden in --help.
-void add_man(CLI::App& app, CommandResult& result) {
-    CLI::App* command = app.add_subcommand("man", "Print the manual page");
+// A text made from the whole command line. For packagers only, so hidden in --help.
+struct Page {
+    const char* command;
+    const char* description;
+    const char* json_key;
+    std::string (*text)(const CLI::App&);
+};
+
+void add_page(CLI::App& app, CommandResult& result, const Page& page) {
+    CLI::App* command = app.add_subcommand(page.command, page.description);
     command->group("");
-    on_run(*command, result, [&app] {
+    on_run(*command, result, [&app, page] {
         Answer answer;
-        answer.text = man_page(app);
-        answer.json["man_page"] = answer.text;
+        answer.text = page.text(app);
+        answer.json[page.json_key] = answer.text;
         return answer;
     });
 }
@@ -55,7 +63,9 @@ void add_commands(CLI::App& app, CommandResult& result, const EditCommand& edit)
     add_study_command(app, result);
     add_studio_commands(app, result);
     add_trust_command(app, result);
-    add_man(app, result);
+    add_page(app, result, {"man", "Print the manual page", "man_page", man_page});
+    add_page(app, result,
+             {"completion", "Print the completion for bash", "bash_completion", bash_completion});
     add_json_flag(app);
     use_our_help(app);
 }

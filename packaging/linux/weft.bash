@@ -1,25 +1,74 @@
-# Completion for weft: commands and options are asked of the program itself.
-
-# The commands of a group ("" or "region"), as its --help lists them.
-_weft_commands() {
-    weft "$@" --help 2>/dev/null | sed -n '/^Commands:/,/^$/p' | grep -oE '^  [a-z]+' | tr -d ' '
-}
+# Completion for weft. Made by: weft completion > packaging/linux/weft.bash
+declare -gA _weft_commands=(
+    ['weft region']='add correct list remove set'
+    ['weft texture']='build evaluate export import info kept list mark model recommend search similar stats train verify'
+    ['weft look']='apply save'
+    ['weft']='apply bench collect cryptomatte demo diff doctor edit form info look matte measure new region render replace schema study submit synth task texture trust validate verify'
+)
+declare -gA _weft_options=(
+    ['weft']='--help --json --licences --licenses --version'
+    ['weft replace']='--albedo --align --backend --blend-mode --burn-in --cache --color-offset --contrast --corners --crypto-files --db --defocus --depth --depth-kind --depth-layer --depth-pass --dry-run --enabled --exclude-licences --export-plane --export-st-maps --exposure --exr-compression --extract-lines --feather --fit --form --form-amount --form-amount-keys --form-roundness --form-shape --form-stroke --fov --fps --frames --gamma --grain --help --highlight-roughness --highlights --holdout --hue --jpeg-quality --json --keep-detail --lamps --layer-blend --layers --layers-output --light --light-detail --light-exact --light-keys --light-layer --light-strength --light-tint --lighting --line-width --lines --lines-invert --map --match-plate --matte --matte-blur --matte-blur-keys --matte-channel --matte-choke --matte-choke-keys --matte-confirmed --matte-feather --matte-feather-keys --matte-from --matte-frozen --matte-frozen-files --matte-invert --matte-min-hole --matte-min-island --matte-propagate --matte-smooth --matte-stabilize --matte-to --matte-value --memory --mirror --missing --motion --motion-convention --motion-direction --motion-layer --movie --movie-start --multiply --name --no-cache --normal-layer --normal-pass --normal-space --offset --offset-keys --opacity --out-space --output --output-root --overlap --overwrite --plane --plane-wrap --plate --plate-layer --plate-space --position-layer --position-pass --progress --quality --recipe --reference-frame --refine --report --restart --resume --rotate --rotate-keys --rotations --saturation --scale --scale-keys --seam --seam-cost --seed --shutter --skip-existing --stage --temperature --temporal --temporal-blend --temporal-weight --texture --texture-also --texture-mode --texture-space --threads --track --uv --uv-layer --version-up --warp --working-space --zone'
+    ['weft render']='--backend --burn-in --cache --db --depth --dry-run --exclude-licences --export-plane --export-st-maps --exr-compression --frames --help --jpeg-quality --json --layers --layers-output --map --memory --movie --no-cache --out-space --output --output-root --overwrite --progress --quality --recipe --report --restart --resume --seed --skip-existing --stage --texture-space --threads --trust --version-up --working-space'
+    ['weft matte']='--cache --crypto-files --fps --frames --help --holdout --json --matte --matte-blur --matte-blur-keys --matte-channel --matte-choke --matte-choke-keys --matte-confirmed --matte-feather --matte-feather-keys --matte-from --matte-frozen --matte-frozen-files --matte-invert --matte-min-hole --matte-min-island --matte-propagate --matte-smooth --matte-stabilize --matte-to --matte-value --missing --movie-start --no-cache --output --output-root --overwrite --plate --plate-layer --plate-space --progress --threads --zone'
+    ['weft form']='--albedo --align --blend-mode --cache --color-offset --contrast --corners --crypto-files --defocus --depth-kind --depth-layer --depth-pass --enabled --exclude-licences --exposure --extract-lines --feather --fit --form --form-amount --form-amount-keys --form-roundness --form-shape --form-stroke --fov --fps --frames --gamma --grain --help --highlight-roughness --highlights --holdout --hue --json --keep-detail --lamps --layer-blend --light --light-detail --light-exact --light-keys --light-layer --light-strength --light-tint --lighting --line-width --lines --lines-invert --match-plate --matte --matte-blur --matte-blur-keys --matte-channel --matte-choke --matte-choke-keys --matte-confirmed --matte-feather --matte-feather-keys --matte-from --matte-frozen --matte-frozen-files --matte-invert --matte-min-hole --matte-min-island --matte-propagate --matte-smooth --matte-stabilize --matte-to --matte-value --mirror --missing --motion --motion-convention --motion-direction --motion-layer --movie-start --multiply --name --no-cache --normal-layer --normal-pass --normal-space --offset --offset-keys --opacity --overlap --plane --plane-wrap --plate --plate-layer --plate-space --position-layer --position-pass --progress --quality --reference-frame --refine --rotate --rotate-keys --rotations --saturation --scale --scale-keys --seam --seam-cost --seed --shutter --temperature --temporal --temporal-blend --temporal-weight --texture --texture-also --texture-mode --texture-space --threads --track --uv --uv-layer --warp --working-space --zone'
+    ['weft new']='--burn-in --depth --exclude-licences --exr-compression --fps --frames --help --jpeg-quality --json --layers --layers-output --missing --movie --movie-start --out-space --output --output-root --overwrite --plate --plate-layer --plate-space --quality --seed --texture-space --working-space'
+    ['weft region']='--help --json'
+    ['weft region add']='--albedo --align --blend-mode --color-offset --contrast --corners --crypto-files --db --defocus --depth-kind --depth-layer --depth-pass --enabled --exposure --extract-lines --feather --fit --form --form-amount --form-amount-keys --form-roundness --form-shape --form-stroke --fov --gamma --grain --help --highlight-roughness --highlights --holdout --hue --json --keep-detail --lamps --layer-blend --light --light-detail --light-exact --light-keys --light-layer --light-strength --light-tint --lighting --line-width --lines --lines-invert --match-plate --matte --matte-blur --matte-blur-keys --matte-channel --matte-choke --matte-choke-keys --matte-confirmed --matte-feather --matte-feather-keys --matte-from --matte-frozen --matte-frozen-files --matte-invert --matte-min-hole --matte-min-island --matte-propagate --matte-smooth --matte-stabilize --matte-to --matte-value --mirror --motion --motion-convention --motion-direction --motion-layer --multiply --name --normal-layer --normal-pass --normal-space --offset --offset-keys --opacity --overlap --plane --plane-wrap --position-layer --position-pass --reference-frame --refine --rotate --rotate-keys --rotations --saturation --scale --scale-keys --seam --seam-cost --shutter --temperature --temporal --temporal-blend --temporal-weight --texture --texture-also --texture-mode --track --uv --uv-layer --warp --zone'
+    ['weft region set']='--albedo --align --blend-mode --color-offset --contrast --corners --crypto-files --db --defocus --depth-kind --depth-layer --depth-pass --enabled --exposure --extract-lines --feather --fit --form --form-amount --form-amount-keys --form-roundness --form-shape --form-stroke --fov --gamma --grain --help --highlight-roughness --highlights --holdout --hue --json --keep-detail --lamps --layer-blend --light --light-detail --light-exact --light-keys --light-layer --light-strength --light-tint --lighting --line-width --lines --lines-invert --match-plate --matte --matte-blur --matte-blur-keys --matte-channel --matte-choke --matte-choke-keys --matte-confirmed --matte-feather --matte-feather-keys --matte-from --matte-frozen --matte-frozen-files --matte-invert --matte-min-hole --matte-min-island --matte-propagate --matte-smooth --matte-stabilize --matte-to --matte-value --mirror --motion --motion-convention --motion-direction --motion-layer --multiply --name --normal-layer --normal-pass --normal-space --offset --offset-keys --opacity --overlap --plane --plane-wrap --position-layer --position-pass --reference-frame --refine --rotate --rotate-keys --rotations --saturation --scale --scale-keys --seam --seam-cost --shutter --temperature --temporal --temporal-blend --temporal-weight --texture --texture-also --texture-mode --track --uv --uv-layer --warp --zone'
+    ['weft region remove']='--help --json'
+    ['weft region correct']='--help --json --pin'
+    ['weft region list']='--help --json'
+    ['weft apply']='--db --dry-run --help --json'
+    ['weft info']='--help --json'
+    ['weft validate']='--help --json --no-files'
+    ['weft synth']='--at --backend --endless --feather --help --isa --json --light --light-weight --mirror --mode --no-align --output --output-root --overlap --overwrite --refine --rotations --seam --seam-cost --seed --size --source-map --texture-space --threads --tileable'
+    ['weft bench']='--against --backend --help --isa --json --lighting --matte --matte-value --output-root --overwrite --repetition-of --runs --seams --shot --sizes --threads'
+    ['weft measure']='--albedo --align --blend-mode --cache --color-offset --contrast --corners --crypto-files --defocus --depth-kind --depth-layer --depth-pass --enabled --estimator --exclude-licences --exposure --extract-lines --feather --fit --form --form-amount --form-amount-keys --form-roundness --form-shape --form-stroke --fov --fps --frames --gamma --grain --help --highlight-roughness --highlights --holdout --hue --json --keep-detail --lamps --layer-blend --light --light-detail --light-exact --light-keys --light-layer --light-pictures --light-strength --light-tint --lighting --line-width --lines --lines-invert --match-plate --matte --matte-blur --matte-blur-keys --matte-channel --matte-choke --matte-choke-keys --matte-confirmed --matte-feather --matte-feather-keys --matte-from --matte-frozen --matte-frozen-files --matte-invert --matte-min-hole --matte-min-island --matte-propagate --matte-smooth --matte-stabilize --matte-to --matte-value --mirror --missing --motion --motion-convention --motion-direction --motion-layer --movie-start --multiply --name --normal-layer --normal-pass --normal-space --offset --offset-keys --opacity --out-space --output-root --overlap --overwrite --plane --plane-wrap --plate --plate-layer --plate-space --position-layer --position-pass --quality --reference-frame --refine --result --rotate --rotate-keys --rotations --saturation --scale --scale-keys --seam --seam-cost --seed --shutter --st --temperature --temporal --temporal-blend --temporal-weight --texture --texture-also --texture-mode --texture-space --threads --track --truth --truth-blur --uv --uv-layer --warp --working-space --zone'
+    ['weft diff']='--frames --help --json --matte --matte-channel --matte-value --output-root --overwrite --tolerance --worst'
+    ['weft cryptomatte']='--at --help --json'
+    ['weft verify']='--frames --help --json --progress --quick --threads'
+    ['weft demo']='--assets --backend --cache --db --dry-run --export-plane --export-st-maps --help --json --map --memory --no-cache --output --output-root --overwrite --progress --recipe --report --restart --resume --skip-existing --stage --threads --version-up'
+    ['weft edit']='--db --demo --help --json --light --paused --screenshot --script --size --ui-scale'
+    ['weft texture']='--help --json'
+    ['weft texture build']='--db --estimate --help --json --keep-downloads --no-starter --packages --per-picture --threads --work'
+    ['weft texture import']='--author --db --help --json --keep-originals --licence --license --material --per-picture --strict --tags --threads --watch'
+    ['weft texture search']='--category --collection --count --db --descending --exclude-licences --exclude-licenses --favourites --help --json --licence --license --material --offset --origin --package --rating --sort --threads'
+    ['weft texture list']='--category --collection --count --db --descending --exclude-licences --exclude-licenses --favourites --help --json --licence --license --material --offset --origin --package --rating --sort --threads'
+    ['weft texture similar']='--count --db --help --json --rectangle --threads'
+    ['weft texture recommend']='--brighter --count --db --diversity --exclude-licences --exclude-licenses --frame --help --json --keep --larger --like --material --matte --output-root --overwrite --plate --project --region --rougher --sheet --threads --warmer'
+    ['weft texture info']='--db --help --json --threads'
+    ['weft texture stats']='--db --help --json --threads'
+    ['weft texture verify']='--db --help --json --threads'
+    ['weft texture train']='--db --help --json --threads'
+    ['weft texture model']='--db --help --json --none --threads'
+    ['weft texture evaluate']='--db --help --json --leave-out --rename --threads'
+    ['weft texture export']='--columns --count --db --help --json --origin --originals --output --output-root --overwrite --random --search --sheet --threads'
+    ['weft texture mark']='--collect --db --favourite --help --json --material --no-favourite --rating --tags --threads --uncollect'
+    ['weft texture kept']='--db --delete-collection --delete-search --help --json --save-search --threads --words'
+    ['weft study']='--albedo --align --alphas --blend-mode --color-offset --contrast --corners --crypto-files --db --defocus --depth-kind --depth-layer --depth-pass --enabled --exclude-licences --exposure --extract-lines --feather --fit --form --form-amount --form-amount-keys --form-roundness --form-shape --form-stroke --fov --fps --frames --gamma --grain --help --highlight-roughness --highlights --holdout --hue --json --keep-detail --lamps --layer-blend --light --light-detail --light-exact --light-keys --light-layer --light-strength --light-tint --lighting --line-width --lines --lines-invert --match-plate --matte --matte-blur --matte-blur-keys --matte-channel --matte-choke --matte-choke-keys --matte-confirmed --matte-feather --matte-feather-keys --matte-from --matte-frozen --matte-frozen-files --matte-invert --matte-min-hole --matte-min-island --matte-propagate --matte-smooth --matte-stabilize --matte-to --matte-value --methods --mirror --missing --motion --motion-convention --motion-direction --motion-layer --movie-start --multiply --name --normal-layer --normal-pass --normal-space --offset --offset-keys --opacity --output --output-root --overlap --overwrite --plane --plane-wrap --plate --plate-layer --plate-space --position-layer --position-pass --progress --quality --reference-frame --refine --render-with-motion --rotate --rotate-keys --rotations --saturation --scale --scale-keys --seam --seam-cost --seed --shutter --temperature --temporal --temporal-blend --temporal-weight --texture --texture-also --texture-mode --texture-space --threads --track --uv --uv-layer --warp --working-space --zone'
+    ['weft look']='--help --json'
+    ['weft look save']='--help --json --output-root --overwrite --region'
+    ['weft look apply']='--db --help --json --region'
+    ['weft collect']='--db --help --json --map --output-root'
+    ['weft submit']='--cache --chunk --db --help --json --map --output --output-root --overwrite --resume --run --skip-existing --threads --to --trust'
+    ['weft task']='--help --json --output-root --progress'
+    ['weft doctor']='--assets --help --json'
+    ['weft schema']='--help --json'
+    ['weft trust']='--help --json --list --remove'
+)
 
 _weft() {
-    local current=${COMP_WORDS[COMP_CWORD]} command=() known word
-    known=$(_weft_commands)
+    local current=${COMP_WORDS[COMP_CWORD]} command=weft depth=1 word
     # Only words that are commands lead on; a folder of the same name beside them does not count.
     for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-        [[ $'\n'$known$'\n' == *$'\n'"$word"$'\n'* ]] || break
-        command+=("$word")
-        known=$(_weft_commands "${command[@]}")
-        [[ $known ]] || break
+        [[ " ${_weft_commands[$command]-} " == *" $word "* ]] || break
+        command+=" $word"
+        depth=$((depth + 1))
     done
     if [[ $current == -* ]]; then
-        mapfile -t COMPREPLY < <(compgen -W "$(weft "${command[@]}" --help 2>/dev/null |
-            sed -n '/^Options:/,/^$/p' | grep -oE '^  (-[a-z],)?(--[a-z][a-z-]*,?)+' | grep -oE -- '--[a-z][a-z-]*' | sort -u)" -- "$current")
-    elif [[ $known && ${#command[@]} -eq $((COMP_CWORD - 1)) ]]; then
-        mapfile -t COMPREPLY < <(compgen -W "$known" -- "$current")
+        mapfile -t COMPREPLY < <(compgen -W "${_weft_options[$command]}" -- "$current")
+    elif [[ ${_weft_commands[$command]-} && $depth -eq $COMP_CWORD ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "${_weft_commands[$command]}" -- "$current")
     fi
 }
 complete -o default -F _weft weft

@@ -10,7 +10,9 @@
 #include <sstream>
 
 #include "app/cli/command_line.h"
+#include "app/cli/help/bash_completion.h"
 #include "app/cli/help/man_page.h"
+#include "app/cli/help/shown_commands.h"
 #include "app/cli/help/usage.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/support/places.h"
@@ -262,9 +264,7 @@ TEST(Interface, TheManualPageIsThatOfTheProgram) {
 class Completion : public CliTest {
   protected:
     std::set<std::string> complete(const Words& words) const {
-        const std::string program = std::filesystem::path(weft_program()).parent_path().string();
-        std::string line = "cd '" + folder_.string() + "' && PATH='" + program +
-                           "':$PATH bash -c 'source \"" + source_folder() +
+        std::string line = "cd '" + folder_.string() + "' && bash -c 'source \"" + source_folder() +
                            "/packaging/linux/weft.bash\"; COMP_WORDS=(weft";
         for (const std::string& word : words)
             line += " \"" + word + "\"";
@@ -283,6 +283,11 @@ class Completion : public CliTest {
     }
 };
 
+TEST_F(Completion, IsThatOfTheProgram) {
+    EXPECT_EQ(file("packaging/linux/weft.bash"), bash_completion(CommandLine().app))
+        << "weft completion > packaging/linux/weft.bash";
+}
+
 TEST_F(Completion, KnowsEveryCommandAndOption) {
     const CommandLine line;
     std::filesystem::create_directory(folder_ / "region");
@@ -293,8 +298,7 @@ TEST_F(Completion, KnowsEveryCommandAndOption) {
         SCOPED_TRACE(joined(path, " "));
         const CLI::App& command = find(line.app, path);
         std::set<std::string> commands;
-        for (const CLI::App* part :
-             command.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); }))
+        for (const CLI::App* part : shown_commands(command))
             commands.insert(part->get_name());
         path.emplace_back("");
         if (!commands.empty()) {

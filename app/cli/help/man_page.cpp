@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "app/cli/help/shown_commands.h"
 #include "app/render/report.h"
 
 namespace weft {
@@ -60,10 +61,6 @@ std::string troff(const std::string& text) {
     return !out.empty() && (out[0] == '.' || out[0] == '\'') ? "\\&" + out : out;
 }
 
-std::vector<const CLI::App*> shown_commands(const CLI::App& group) {
-    return group.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); });
-}
-
 void write_options(const CLI::App& command, std::ostream& out) {
     for (const CLI::Option* option : command.get_options()) {
         const std::string first = option->get_name();
@@ -76,12 +73,12 @@ void write_options(const CLI::App& command, std::ostream& out) {
     }
 }
 
-void write_command(const CLI::App& command, const std::string& name, std::ostream& out) {
+void write_section(const CLI::App& command, const std::string& name, std::ostream& out) {
     out << ".SS " << troff(name) << '\n' << troff(command.get_description()) << ".\n";
     const auto commands = shown_commands(command);
     if (commands.empty()) write_options(command, out);
     for (const CLI::App* part : commands)
-        write_command(*part, name + " " + part->get_name(), out);
+        write_section(*part, name + " " + part->get_name(), out);
 }
 
 }  // namespace
@@ -92,7 +89,7 @@ std::string man_page(const CLI::App& app) {
         << ".TH WEFT 1 \"\" \"weft " << kVersion << "\" \"User commands\"\n"
         << kHead << ".SH COMMANDS\n";
     for (const CLI::App* command : shown_commands(app))
-        write_command(*command, command->get_name(), out);
+        write_section(*command, command->get_name(), out);
     out << kTail;
     return out.str();
 }

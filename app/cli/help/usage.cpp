@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "app/cli/help/shown_commands.h"
 #include "app/cli/option_values.h"
 
 namespace weft {
@@ -20,8 +21,8 @@ const CLI::App& chosen(const CLI::App& app) {
 
 std::vector<std::string> command_names(const CLI::App& group) {
     std::vector<std::string> names;
-    for (const CLI::App* command : group.get_subcommands([](const CLI::App*) { return true; }))
-        if (!command->get_group().empty()) names.push_back(command->get_name());
+    for (const CLI::App* command : shown_commands(group))
+        names.push_back(command->get_name());
     return names;
 }
 
