@@ -34,6 +34,8 @@ constexpr float kForWeight = 0.25f;
 constexpr float kOldest = 24, kSettled = 10, kYoung = 6;
 // A departure of which the surface has a share below kRare speaks against old pixels as well.
 constexpr float kRare = 0.01f, kCommon = 0.04f, kAgainstOld = 0.35f;
+// The share of its largest area from which on a surface is shown enough for that.
+constexpr float kHalfShown = 0.5f, kShown = 0.8f;
 
 // Two bins for each doubling.
 float bin_of(float departure_px) {
@@ -122,11 +124,13 @@ Departure::Departure(ViewF1 key_phi) : age_(key_phi.size()), odds_(key_phi.size(
 
 void Departure::count(const Step& step) {
     Shares inside{}, outside{};
+    float shown = 0;
     const int stride = stride_of(kStride_px, step.unit_px);
     for (int y = stride / 2; y < step.prev_phi.height(); y += stride) {
         for (int x = stride / 2; x < step.prev_phi.width(); x += stride) {
             const float phi = before(step.prev_phi, step.flow, x, y) / step.unit_px;
             if (phi < kSureInside_px && phi > -kOutside_px) continue;
+            if (phi > 0) ++shown;
             // A leak must not teach how the surface moves.
             if (phi > 0 && before(age_, step.flow, x, y) < kSettled) continue;
             const float bin = std::min(bin_of(step.departure(x, y)), static_cast<float>(kBins - 1));
@@ -138,6 +142,8 @@ void Departure::count(const Step& step) {
     const float samples = sum_of(inside);
     most_inside_ = std::max(most_inside_, samples);
     if (samples > kTooFew * most_inside_) blend_in(inside_, inside);
+    most_shown_ = std::max(most_shown_, shown);
+    shown_ = smooth_step(shown / std::max(most_shown_, 1.0f), kHalfShown, kShown);
     blend_in(outside_, outside);
 }
 
@@ -150,28 +156,29 @@ float Departure::trust() const {
     return smooth_step(apart, kAlike, kApart);
 }
 
-Departure::Shares Departure::odds(const Shares& in) const {
+// Log odds of each departure, whether or not motion tells inside and outside apart.
+Departure::Shares Departure::ratios(const Shares& in) const {
     const Shares out = smoothed(outside_);
-    const float weight = trust();
-    Shares odds{};
+    Shares ratios{};
     for (std::size_t i = 0; i < kBins; ++i) {
         const float ratio = std::log((in[i] + kUnseenShare) / (out[i] + kUnseenShare));
-        odds[i] = weight * std::clamp(ratio, -kMostNow, kMostNow);
+        ratios[i] = std::clamp(ratio, -kMostNow, kMostNow);
     }
-    return odds;
+    return ratios;
 }
 
 // What one frame says of a pixel.
 float Departure::odds_now(const DepartureInput& in, Vec2i at, float departure,
-                          const Shares& odds) const {
+                          const Shares& ratios) const {
     const float bin = std::min(bin_of(departure), static_cast<float>(kBins) - 1.001f);
     const auto i = static_cast<std::size_t>(bin);
     const float part = bin - static_cast<float>(i);
     const auto read = [&](const Shares& of) { return (1 - part) * of[i] + part * of[i + 1]; };
-    const float now = read(odds);
-    if (now > 0) return kForWeight * now;
-    const float young = std::exp(-age_.at(at.x, at.y) / kYoung);
-    float old = kAgainstOld * (1 - smooth_step(read(inside_), kRare, kCommon));
+    const float now = read(ratios);
+    if (now > 0) return trust_ * kForWeight * now;
+    const float young = trust_ * std::exp(-age_.at(at.x, at.y) / kYoung);
+    // A departure that the surface hardly has needs no other difference between it and the rest.
+    float old = shown_ * kAgainstOld * (1 - smooth_step(read(inside_), kRare, kCommon));
     if (now == 0 || old <= young || !in.area.contains(at.x, at.y)) return now * young;
     const float* surface = in.surface_motion.pixel(at.x - in.area.x0, at.y - in.area.y0);
     const float* measured = in.flow.d.pixel(at.x, at.y);
@@ -185,8 +192,9 @@ const ImageF1& Departure::advance(const DepartureInput& in) {
     count(step);
     Shares any;
     any.fill(1.0f / kBins);
-    const Shares shares = this->odds(smoothed(inside_));
-    any = this->odds(any);
+    const Shares ratios = this->ratios(smoothed(inside_));
+    any = this->ratios(any);
+    trust_ = trust();
     const Size size = in.prev_phi.size();
     const ImageF1 age_before = std::exchange(age_, ImageF1(size));
     ImageF1 odds(size);
@@ -200,8 +208,8 @@ const ImageF1& Departure::advance(const DepartureInput& in) {
                     age_.at(x, y) = std::min(before(age_before, in.flow, x, y) + 1, kOldest);
                 const float departure = step.departure(x, y);
                 const float bin = std::min(bin_of(departure), static_cast<float>(kBins - 1));
-                departs_.at(x, y) = any[static_cast<std::size_t>(bin)];
-                const float now = odds_now(in, {x, y}, departure, shares);
+                departs_.at(x, y) = trust_ * any[static_cast<std::size_t>(bin)];
+                const float now = odds_now(in, {x, y}, departure, ratios);
                 float sum = known ? kDepartureMemory * before(odds_, in.flow, x, y) : 0.0f;
                 // What moves with the background now was taken for surface by an edge's motion.
                 if (now < 0) sum = std::min(sum, 0.0f);

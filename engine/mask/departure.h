@@ -59,14 +59,16 @@ class Departure {
     struct Step;
     void count(const Step& step);
     [[nodiscard]] float trust() const;
-    [[nodiscard]] Shares odds(const Shares& inside) const;
+    [[nodiscard]] Shares ratios(const Shares& inside) const;
     [[nodiscard]] float odds_now(const DepartureInput& in, Vec2i at, float departure,
-                                 const Shares& odds) const;
+                                 const Shares& ratios) const;
 
     ImageF1 age_;             // for how many frames each pixel of the last frame has been inside
     ImageF1 odds_, departs_;  // of the last frame
     Shares inside_{}, outside_{};  // running shares of each departure
     float most_inside_ = 0;        // samples that a frame had inside
+    float most_shown_ = 0;         // samples that a frame had inside, whatever their age
+    float shown_ = 0, trust_ = 0;  // of this frame, 0 to 1
 };
 
 /// Adds what Departure::advance() says to the log odds near the boundary and to those that reopen a
