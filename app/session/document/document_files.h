@@ -16,6 +16,7 @@
 
 namespace weft {
 
+/// Belongs to one thread and never blocks it.
 class DocumentFiles {
   public:
     /// The references must stay.

@@ -14,6 +14,7 @@
 
 namespace weft {
 
+/// Belongs to one thread, on which it reads project files.
 class DocumentOpening {
   public:
     /// The references must stay.

@@ -20,6 +20,7 @@
 
 namespace weft {
 
+/// Belongs to one thread and never blocks it.
 class DocumentSaving {
   public:
     /// The references must stay.

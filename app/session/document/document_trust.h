@@ -10,6 +10,7 @@
 
 namespace weft {
 
+/// Belongs to one thread.
 class DocumentTrust {
   public:
     /// `trust_file`: of the TrustList; empty: no project file is trusted. The references must stay.

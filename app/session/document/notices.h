@@ -8,6 +8,7 @@
 
 namespace weft {
 
+/// Belongs to one thread.
 class Notices {
   public:
     /// A repeated notice replaces the earlier one; the oldest of too many are dropped.

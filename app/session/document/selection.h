@@ -9,6 +9,7 @@
 
 namespace weft {
 
+/// A value. The document that it is of is passed in.
 struct Selection {
     RegionId region = 0;
     RegionId solo = 0;  ///< Only this region is shown in the preview; 0: all.

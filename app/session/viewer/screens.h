@@ -14,6 +14,7 @@
 
 namespace weft {
 
+/// Belongs to one thread and never blocks it.
 class Screens {
   public:
     /// The references must stay.
