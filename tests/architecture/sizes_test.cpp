@@ -98,8 +98,6 @@ const std::vector<SizeException> kLongFunctions{
       {"app/preview/preview_render.cpp", "Preview::Impl::open_shot_of", 65},
       {"app/preview/preview_flicker.cpp", "Preview::Impl::step_flicker", 70},
       {"app/jobs/child_jobs.cpp", "ChildJobs::run", 95},
-      {"app/session/session_mattes.cpp", "Session::matte_of", 70},
-      {"app/session/session_view.cpp", "Session::show_marks", 65},
       {"engine/composite/focus_map.cpp", "fit_focus", 65},
       {"engine/composite/grain_meter.cpp", "GrainMeter::model", 65},
       {"engine/synthesis/direct_search.cpp", "DirectSearch::add_layer", 70},

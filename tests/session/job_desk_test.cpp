@@ -1,5 +1,5 @@
 // Render requests, and reports of finished jobs.
-#include "app/session/job_desk.h"
+#include "app/session/jobs/job_desk.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

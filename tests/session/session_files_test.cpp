@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "app/project/codec/project_file.h"
-#include "app/session/collect_run.h"
+#include "app/session/document/collect_run.h"
 #include "tests/session/session_fixture.h"
 
 namespace weft::test {

@@ -1,5 +1,5 @@
 // The cards of the strip: what they show, what choosing one does, and who works them out.
-#include "app/session/strip.h"
+#include "app/session/viewer/strip.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/session/job_desk.h"
+#include "app/session/jobs/job_desk.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "app/session/strip.h"
+#include "app/session/viewer/strip.h"
 
 #include <algorithm>
 #include <cmath>
