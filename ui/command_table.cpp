@@ -1,5 +1,4 @@
-// The command table: names, keys, actions and conditions.
-#include <imgui.h>
+#include "ui/command_table.h"
 
 #include <algorithm>
 
@@ -9,7 +8,7 @@
 #include "ui/compare.h"
 #include "ui/ctx.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/motion.h"
 
 namespace weft {
 namespace {

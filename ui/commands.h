@@ -1,6 +1,6 @@
 #pragma once
 // Commands: menus, shortcuts, tooltips, the command palette and the list of shortcuts are all made
-// from this table.
+// from one table (command_table.h).
 
 #include <functional>
 #include <map>
@@ -27,12 +27,9 @@ struct Command {
     KeyChord key;
 };
 
-/// All commands in menu order, with default keys.
-[[nodiscard]] std::vector<Command> all_commands();
-
 class Commands {
   public:
-    Commands();
+    explicit Commands(std::vector<Command> commands);
     [[nodiscard]] const std::vector<Command>& all() const { return commands_; }
     [[nodiscard]] const Command* find(std::string_view id) const;
     /// Key of a command, such as "Ctrl+S"; empty: none.
@@ -48,9 +45,5 @@ class Commands {
   private:
     std::vector<Command> commands_;
 };
-
-/// Leaves the document for "new", "demo", "browse", "close", a path, or "" to quit. Asks first if
-/// there is unsaved work.
-void leave_for(Ctx& c, const std::string& what);
 
 }  // namespace weft

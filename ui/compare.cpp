@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "ui/panels.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "ui/browser_paths.h"
+#include "ui/files.h"
 #include "ui/floating_window.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

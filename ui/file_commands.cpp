@@ -1,6 +1,7 @@
-// The commands of files, and leaving the document.
+// The commands of files.
 #include "ui/command_parts.h"
 #include "ui/ctx.h"
+#include "ui/files.h"
 #include "ui/icons.h"
 
 namespace weft {
@@ -31,36 +32,13 @@ Command command(const char* id, const char* category, const char* name, const ch
     return out;
 }
 
-void leave_for(Ctx& c, const std::string& what) {
-    if (c.view.modified) {
-        c.state.leave_asked = true;
-        c.state.leave_then = what;
-        return;
-    }
-    if (what == "demo") {
-        c.emit(OpenDemo{});
-    } else if (what == "new") {
-        c.emit(NewProject{});
-    } else if (what == "close") {
-        c.emit(CloseProject{});
-    } else if (what == "browse") {
-        c.state.browser = {};
-        c.state.browser.purpose = BrowserState::Purpose::kOpen;
-        c.state.browser.just_opened = true;
-    } else if (what.starts_with('/')) {
-        c.emit(OpenAny{what});
-    } else if (what.empty()) {
-        c.state.leave = true;
-    }
-}
-
 void add_file_commands(std::vector<Command>& out) {
     out.push_back(command("file.new", "File", "New project", icons::kFile, "Ctrl+N",
-                          [](Ctx& c) { leave_for(c, "new"); }));
+                          [](Ctx& c) { ui::leave_for(c, "new"); }));
     out.push_back(command("file.open", "File", "Open…", icons::kFolderOpen, "Ctrl+O",
-                          [](Ctx& c) { leave_for(c, "browse"); }));
+                          [](Ctx& c) { ui::leave_for(c, "browse"); }));
     out.push_back(command("file.demo", "File", "Open demo shot", icons::kFilm, "",
-                          [](Ctx& c) { leave_for(c, "demo"); }));
+                          [](Ctx& c) { ui::leave_for(c, "demo"); }));
     out.push_back(command(
         "file.save", "File", "Save", icons::kSave, "Ctrl+S",
         [](Ctx& c) {
@@ -94,9 +72,9 @@ void add_file_commands(std::vector<Command>& out) {
         [](Ctx& c) { browse(c, BrowserState::Purpose::kTextureFolder); }, is_open));
     out.push_back(command(
         "file.close", "File", "Close project", icons::kClose, "Ctrl+W",
-        [](Ctx& c) { leave_for(c, "close"); }, is_open));
+        [](Ctx& c) { ui::leave_for(c, "close"); }, is_open));
     out.push_back(
-        command("file.quit", "File", "Quit", "", "Ctrl+Q", [](Ctx& c) { leave_for(c, ""); }));
+        command("file.quit", "File", "Quit", "", "Ctrl+Q", [](Ctx& c) { ui::leave_for(c, ""); }));
 }
 
 }  // namespace weft

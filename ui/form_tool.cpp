@@ -1,9 +1,9 @@
 // Tool for the form of a surface: shapes and strokes drawn over it on its reference frame.
 #include <algorithm>
 
+#include "ui/form.h"
 #include "ui/form_drawing.h"
-#include "ui/panels.h"
-#include "ui/viewer.h"
+#include "ui/snapping.h"
 #include "ui/viewer_handles.h"
 #include "ui/widgets.h"
 

@@ -1,6 +1,6 @@
 // Suggested keyframes: a list; a click goes to the frame.
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/mask.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -3,18 +3,18 @@
 #include <cmath>
 
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/inspector.h"
+#include "ui/light.h"
+#include "ui/mask.h"
+#include "ui/motion.h"
+#include "ui/region_menu.h"
+#include "ui/review.h"
+#include "ui/texture.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {
 
-void no_region(Ctx& c) {
-    empty_state(c, icons::kLayers, "No region selected",
-                "A region is a surface that gets a new texture. Add one above, then paint its "
-                "matte.");
-}
-
-// ---- regions ---------------------------------------------------------------------------------
+namespace {
 
 void region_list(Ctx& c) {
     const Theme& t = c.theme;
@@ -113,6 +113,8 @@ void region_list(Ctx& c) {
     }
     ImGui::PopStyleVar();
 }
+
+}  // namespace
 
 void inspector(Ctx& c, ImVec2 size) {
     const Theme& t = c.theme;

@@ -1,9 +1,10 @@
 // Texture workspace: the form of the surface, and what draws it.
 #include <algorithm>
 
+#include "ui/form.h"
 #include "ui/form_drawing.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -4,7 +4,8 @@
 
 #include "app/project/edit.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/light_sections.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -5,7 +5,7 @@
 #include "app/mattes/matte_layer.h"
 #include "ui/icons.h"
 #include "ui/layer_rows.h"
-#include "ui/panels.h"
+#include "ui/mask_sections.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/light.h"
+#include "ui/light_sections.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

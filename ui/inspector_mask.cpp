@@ -4,7 +4,9 @@
 
 #include "app/mattes/matte_layer.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/mask.h"
+#include "ui/mask_sections.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/mask.h"
+#include "ui/motion.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

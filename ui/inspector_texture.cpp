@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/form.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
-#include "ui/viewer_handles.h"
+#include "ui/parameters.h"
+#include "ui/placement.h"
+#include "ui/texture.h"
+#include "ui/texture_parts.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/placement.h"
 #include "ui/warp_grid.h"
 #include "ui/widgets.h"
 

@@ -5,7 +5,7 @@
 #include "app/render/render_estimate.h"
 #include "ui/folder_of.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/jobs.h"
 #include "ui/render_card.h"
 #include "ui/widgets.h"
 

@@ -5,8 +5,9 @@
 
 #include "app/textures/patch_pick.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
-#include "ui/viewer.h"
+#include "ui/light.h"
+#include "ui/light_sections.h"
+#include "ui/viewer_handles.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

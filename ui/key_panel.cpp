@@ -6,7 +6,7 @@
 
 #include "ui/icons.h"
 #include "ui/key_parts.h"
-#include "ui/panels.h"
+#include "ui/timeline.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "app/mattes/matte_layer.h"
-#include "ui/panels.h"
 #include "ui/parameter_control.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -5,8 +5,8 @@
 
 #include "ui/floating_window.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
 #include "ui/widgets.h"
+#include "ui/windows.h"
 
 namespace weft::ui {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "ui/icons.h"
-#include "ui/panels.h"
 #include "ui/parameter_control.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

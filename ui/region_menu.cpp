@@ -1,5 +1,5 @@
 // What the right mouse button offers on a region's row.
-#include "ui/panels.h"
+#include "ui/region_menu.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -10,7 +10,7 @@
 #include "engine/core/parallel.h"
 #include "ui/folder_of.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/review.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -306,4 +306,10 @@ void section_gap(Ctx& c) {
     ImGui::Dummy({0, c.theme.px(6)});
 }
 
+void no_region(Ctx& c) {
+    empty_state(c, icons::kLayers, "No region selected",
+                "A region is a surface that gets a new texture. Add one above, then paint its "
+                "matte.");
+}
+
 }  // namespace weft::ui

@@ -1,8 +1,9 @@
 // The dialog for saving over a file that another program has changed.
 #include <algorithm>
 
-#include "ui/panels.h"
-#include "ui/sheets.h"
+#include "ui/files.h"
+#include "ui/parameters.h"
+#include "ui/sheet.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

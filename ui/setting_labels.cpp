@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "ui/panels.h"
+#include "ui/parameters.h"
 
 namespace weft::ui {
 namespace {

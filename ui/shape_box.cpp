@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "ui/viewer.h"
 #include "ui/viewer_handles.h"
 
 namespace weft::ui {

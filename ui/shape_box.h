@@ -1,6 +1,10 @@
 #pragma once
+// The box around a roto shape.
+
 #include "app/project/project.h"
 #include "engine/core/quad.h"
+#include "ui/ctx.h"
+#include "ui/view_map.h"
 
 namespace weft::ui {
 
@@ -9,5 +13,11 @@ namespace weft::ui {
 /// Turned clockwise on screen by an angle in radians and scaled, about a pivot; feather grows with
 /// the shape.
 [[nodiscard]] RotoShape turned_shape(RotoShape shape, Vec2 pivot, float scale, float radians);
+
+/// The box that rotates and scales the shape. Returns true if a drag has ended that changed it.
+bool shape_box(Ctx& c, const ViewMap& map, bool hovered, bool& over);
+/// A drag inside of the shape, beside all handles, moves it. Returns true if one has ended that
+/// did.
+bool shape_inside(Ctx& c, const ViewMap& map, bool active, bool hovered);
 
 }  // namespace weft::ui

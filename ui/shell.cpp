@@ -5,8 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/panels.h"
+#include "ui/bars.h"
+#include "ui/command_table.h"
+#include "ui/files.h"
+#include "ui/inspector.h"
+#include "ui/jobs.h"
+#include "ui/light.h"
+#include "ui/placement.h"
+#include "ui/review.h"
+#include "ui/texture.h"
+#include "ui/timeline.h"
+#include "ui/viewer.h"
 #include "ui/widgets.h"
+#include "ui/windows.h"
 
 namespace weft {
 namespace {
@@ -59,7 +70,7 @@ float ruler_height(const UiState& state, bool low, float least) {
 }  // namespace
 
 Shell::Shell(EditorSettings& settings, PictureHost& pictures)
-    : settings_(settings), pictures_(pictures) {
+    : settings_(settings), pictures_(pictures), commands_(all_commands()) {
     commands_.bind(settings.keys);
     const auto size = [&](const char* name, float& value) {
         if (const auto found = settings.sizes.find(name); found != settings.sizes.end())

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "ui/plate_snap.h"
-#include "ui/viewer_handles.h"
+#include "ui/snapping.h"
 
 namespace weft::ui {
 namespace {

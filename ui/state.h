@@ -13,7 +13,7 @@
 #include "app/session/action.h"
 #include "app/textures/texture_shelf.h"
 #include "ui/picture_host.h"
-#include "ui/transform_box.h"
+#include "ui/placement_numbers.h"
 
 namespace weft {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/light.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

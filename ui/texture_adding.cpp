@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "ui/icons.h"
-#include "ui/panels.h"
-#include "ui/sheets.h"
+#include "ui/sheet.h"
+#include "ui/texture.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

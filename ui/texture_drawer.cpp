@@ -6,8 +6,8 @@
 
 #include "engine/core/text.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
-#include "ui/texture_cards.h"
+#include "ui/texture.h"
+#include "ui/texture_parts.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

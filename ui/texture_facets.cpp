@@ -1,7 +1,6 @@
 // Filter chips of the library.
 #include "ui/icons.h"
-#include "ui/panels.h"
-#include "ui/texture_cards.h"
+#include "ui/texture_parts.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "ui/icons.h"
-#include "ui/panels.h"
-#include "ui/texture_cards.h"
+#include "ui/texture_parts.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

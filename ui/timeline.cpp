@@ -4,7 +4,7 @@
 
 #include "ui/frame_scale.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/timeline.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

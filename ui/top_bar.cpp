@@ -1,8 +1,9 @@
 // The top bar: menus, project name, workspaces and backend.
 #include <cmath>
 
+#include "ui/bars.h"
+#include "ui/files.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

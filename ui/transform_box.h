@@ -8,18 +8,9 @@
 #include "app/project/edit.h"
 #include "engine/core/image.h"
 #include "engine/core/quad.h"
+#include "ui/placement_numbers.h"
 
-namespace weft {
-
-/// The placement of one frame.
-struct PlacementNumbers {
-    double scale = 1;
-    double rotate_deg = 0;  ///< Counter-clockwise.
-    double x = 0, y = 0;    ///< Offset.
-    bool operator==(const PlacementNumbers&) const = default;
-};
-
-namespace ui {
+namespace weft::ui {
 
 /// The numbers of a frame, those of the keys where it has them.
 [[nodiscard]] PlacementNumbers placement_on(const Placement& placement, int frame);
@@ -35,5 +26,4 @@ namespace ui {
 /// counter-clockwise: top left, top right, bottom right, bottom left. Empty for an empty matte.
 [[nodiscard]] std::optional<Quad<float>> box_around(const ViewU8x1& matte, double degrees);
 
-}  // namespace ui
-}  // namespace weft
+}  // namespace weft::ui

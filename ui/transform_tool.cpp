@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "ui/angles.h"
-#include "ui/panels.h"
+#include "ui/placement.h"
+#include "ui/snapping.h"
 #include "ui/transform_box.h"
-#include "ui/viewer.h"
 #include "ui/viewer_handles.h"
 #include "ui/widgets.h"
 
@@ -240,15 +240,6 @@ bool pivot_handle(Ctx& c, const ViewMap& map, bool hovered) {
 }
 
 }  // namespace
-
-void quad_lines(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at) {
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    for (std::size_t k = 0; k < 4; ++k) {
-        const ImVec2 a = map.to_screen(at[k]), b = map.to_screen(at[(k + 1) % 4]);
-        list.AddLine(a, b, IM_COL32(0, 0, 0, 160), c.theme.px(3));
-        list.AddLine(a, b, c.theme.accent_hover, c.theme.px(1.5f));
-    }
-}
 
 std::vector<double> numbers_of(const std::array<Vec2, 4>& corners) {
     constexpr double kPerPixel = 100;

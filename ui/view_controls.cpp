@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "ui/compare.h"
-#include "ui/panels.h"
-#include "ui/viewer.h"
 #include "ui/viewer_overlays.h"
+#include "ui/viewer_parts.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -8,9 +8,10 @@
 
 #include "ui/compare.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/mask.h"
 #include "ui/viewer_handles.h"
 #include "ui/viewer_overlays.h"
+#include "ui/viewer_parts.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -1,9 +1,9 @@
 #pragma once
-// Internal to the viewer: handles that can be dragged.
+// What tools on the picture share: handles that can be dragged, lines, modifiers of the mouse.
 
 #include <array>
-#include <optional>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "ui/ctx.h"
 #include "ui/view_map.h"
@@ -21,39 +21,20 @@ Grip handle(Ctx& c, const ViewMap& map, const std::string& id, Vec2& at, bool ho
 /// Returns true if something was.
 bool take_back_drag(Ctx& c);
 
+/// Returns true while the modifier that takes away is held: Ctrl, or Alt, which many window
+/// managers keep for moving windows.
+[[nodiscard]] bool subtracts();
 /// Alt, or Ctrl and Shift where the window manager keeps Alt: breaks handles, removes a point,
 /// begins another shape.
 [[nodiscard]] bool breaks_off();
 /// The arrow key that was pressed, in pixels: 1, with Shift 10.
 [[nodiscard]] Vec2 arrow_step();
 
-/// Whether what is dragged snaps to edges of the plate: the switch, the other way round while Ctrl
-/// is held.
-[[nodiscard]] bool snaps(const Ctx& c);
-/// The place on the nearest strong edge of the plate within 8 px of the screen, which is shown; the
-/// place itself while nothing snaps, and where there is none.
-[[nodiscard]] Vec2 snapped(Ctx& c, const ViewMap& map, Vec2 at, bool snap);
-/// The ends of a segment laid on a straight edge within the same reach; none where there is none.
-[[nodiscard]] std::optional<std::pair<Vec2, Vec2>> snapped_segment(Ctx& c, const ViewMap& map,
-                                                                   Vec2 from, Vec2 to);
-
-void pin_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
-void lamp_tool(Ctx& c, const ViewMap& map, bool hovered);
-void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
-/// The box that rotates and scales the shape. Returns true if a drag has ended that changed it.
-bool shape_box(Ctx& c, const ViewMap& map, bool hovered, bool& over);
-/// A drag inside of the shape, beside all handles, moves it. Returns true if one has ended that
-/// did.
-bool shape_inside(Ctx& c, const ViewMap& map, bool active, bool hovered);
-void warp_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
-void transform_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
+/// A line between two places of the plate.
+void plate_line(Ctx& c, const ViewMap& map, Vec2 from, Vec2 to, ImU32 color);
 /// The outline of four corners.
 void quad_lines(Ctx& c, const ViewMap& map, const std::array<Vec2, 4>& at);
-/// x and y of each corner in turn, to a hundredth of a pixel: more digits only fill the field.
-[[nodiscard]] std::vector<double> numbers_of(const std::array<Vec2, 4>& corners);
-void form_tool(Ctx& c, const ViewMap& map, bool hovered, bool active);
-void scribble_tool(Ctx& c, const ViewMap& map, bool active);
-void similar_tool(Ctx& c, const ViewMap& map, bool active);
+
 /// The mouse path of this frame on the plate, so that strokes are smooth at low frame rates.
 [[nodiscard]] std::vector<Vec2> path_on_plate(const Ctx& c, const ViewMap& map);
 

@@ -82,9 +82,9 @@ GridWarp with_smooth_points(const GridWarp& warp, int frame, const std::set<std:
 }
 
 Edit edit_of_warp(const Region& region, std::optional<GridWarp> warp) {
-    return SetRegionParameter{{region.id, {}},
-                              "placement.warp",
-                              warp ? ParameterValue(std::move(*warp)) : ParameterValue()};
+    SetRegionParameter edit{{region.id, {}}, "placement.warp", {}};
+    if (warp) edit.value = std::move(*warp);
+    return edit;
 }
 
 }  // namespace weft::ui

@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "engine/core/warp_net.h"
-#include "ui/panels.h"
-#include "ui/viewer.h"
+#include "ui/form.h"
+#include "ui/placement.h"
+#include "ui/snapping.h"
+#include "ui/transform_box.h"
 #include "ui/viewer_handles.h"
 #include "ui/warp_grid.h"
 #include "ui/widgets.h"

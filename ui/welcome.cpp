@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/bars.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
 #include "ui/widgets.h"
 
 namespace weft::ui {

@@ -66,6 +66,8 @@ void quiet(Ctx& c, const char* text);  ///< One line, shortened with … if it d
 void wrapped(Ctx& c, const std::string& text, ImU32 color);
 /// Placeholder of an empty panel: an icon, what is missing, what to do.
 void empty_state(Ctx& c, const char* icon, const char* title, const char* what_to_do);
+/// The same while no region is selected.
+void no_region(Ctx& c);
 /// A coloured line with an icon, for a state that needs attention.
 void banner(Ctx& c, const char* icon, ImU32 color, const std::string& text);
 void progress_bar(Ctx& c, float fraction, const std::string& label, float width = -1,

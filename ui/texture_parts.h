@@ -1,5 +1,5 @@
 #pragma once
-// Internal: parts of the texture drawer.
+// Internal: parts of the texture drawer and the inspector.
 
 #include "ui/ctx.h"
 
@@ -15,5 +15,7 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards);
 void suggested_together(Ctx& c, const std::vector<TextureCard>& cards);
 /// Filters by origin, licence and look.
 void texture_facets(Ctx& c);
+/// Where the texture comes from.
+void provenance_section(Ctx& c, const Region& region);
 
 }  // namespace weft::ui

@@ -1,44 +1,14 @@
-// Dialogs: keyboard shortcuts, settings, shot settings.
-#include "ui/sheets.h"
-
+// Dialogs: keyboard shortcuts, settings, shot settings, and what Weft is.
 #include <algorithm>
 #include <cmath>
 
-#include "ui/floating_window.h"
 #include "ui/icons.h"
-#include "ui/panels.h"
+#include "ui/parameters.h"
+#include "ui/sheet.h"
 #include "ui/widgets.h"
+#include "ui/windows.h"
 
 namespace weft::ui {
-
-// A centred dialog, closed by its button or Esc.
-bool begin_sheet(Ctx& c, const char* title, ImVec2 size, bool& open) {
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const Theme& t = c.theme;
-    size.x = std::min(size.x, screen.x - t.px(32));
-    size.y = std::min(size.y, screen.y - t.px(32));
-    // In front of everything except its own pop-ups.
-    if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
-        ImGui::SetNextWindowFocus();
-    begin_floating(t, title,
-                   {std::floor((screen.x - size.x) / 2), std::floor((screen.y - size.y) / 2)}, size,
-                   {t.px(16), t.px(14)});
-    c.panel = title;
-    ImGui::PushFont(t.title);
-    ImGui::TextUnformatted(title);
-    ImGui::PopFont();
-    ImGui::SetCursorPos({size.x - t.px(42), t.px(10)});
-    if (icon_button(c, icons::kClose, "Close")) open = false;
-    ImGui::SetCursorPos({t.px(16), t.px(50)});
-    if (ImGui::IsKeyPressed(256) && c.state.rebinding.empty() && !ImGui::IsAnyItemActive())
-        open = false;
-    return true;
-}
-
-void end_sheet(Ctx& c) {
-    ImGui::End();
-    c.panel.clear();
-}
 
 void shortcut_sheet(Ctx& c) {
     if (!c.state.shortcuts_open) return;
@@ -165,6 +135,20 @@ void shot_window(Ctx& c) {
     project_parameter(c, "settings.excluded_licences", "Exclude licences");
     project_parameter(c, "output.exr_compression", "EXR compression");
     project_parameter(c, "output.jpeg_quality");
+    end_sheet(c);
+}
+
+void about_window(Ctx& c) {
+    if (!c.state.about_open) return;
+    const Theme& t = c.theme;
+    begin_sheet(c, "About Weft", {t.px(420), t.px(230)}, c.state.about_open);
+    wrapped(c,
+            "Weft replaces textures in animation: mask a surface, choose a texture, and it "
+            "stays on that surface through the whole shot, lit like the plate.",
+            t.text);
+    ImGui::Dummy({0, t.px(6)});
+    wrapped(c, "Set in Inter, with Material Design Icons. The interface is drawn with Dear ImGui.",
+            t.quiet);
     end_sheet(c);
 }
 
