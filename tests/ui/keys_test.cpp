@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
-#include "ui/command_table.h"
-#include "ui/commands.h"
-#include "ui/theme.h"
-#include "ui/view_map.h"
+#include "ui/base/commands.h"
+#include "ui/base/theme.h"
+#include "ui/canvas/view_map.h"
+#include "ui/shell/command_table.h"
 
 namespace weft {
 namespace {
