@@ -28,8 +28,9 @@ target_link_libraries(weft_api INTERFACE weft::exchange weft::measure)
 target_compile_features(weft_api INTERFACE cxx_std_20)
 set_target_properties(weft_api PROPERTIES EXPORT_NAME weft)
 get_property(libraries GLOBAL PROPERTY WEFT_LIBRARIES)
-list(REMOVE_ITEM libraries weft_mattes weft_textures weft_preview weft_session weft_ui weft_editor weft_cli weft_study
+list(REMOVE_ITEM libraries weft_mattes weft_textures weft_preview weft_session weft_editor weft_cli weft_study
      weft_baselines weft_retrieval weft_shot_bench)
+list(FILTER libraries EXCLUDE REGEX "^weft_ui_")
 install(TARGETS weft_api ${libraries} EXPORT weft-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/weft COMPONENT development)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/weft)

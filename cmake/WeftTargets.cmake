@@ -28,6 +28,13 @@ function(weft_precompile name)
     target_compile_options(weft_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
+# weft_reuse_precompiled(NAME FROM)
+#   The headers that were parsed for another library, which has the same flags.
+function(weft_reuse_precompiled name from)
+    target_precompile_headers(weft_${name} REUSE_FROM weft_${from})
+    target_compile_options(weft_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+
 # weft_test(NAME SOURCES a_test.cpp … [LIBS dep …] [LABELS full] [OPTIMISED])
 #   One GoogleTest program per folder, each of its suites one test for ctest. With the label "full" the whole program is
 #   one test instead: listing a program's suites means starting it, and a plain ./test need not start what it will not

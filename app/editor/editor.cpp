@@ -4,7 +4,7 @@
 
 #include "app/editor/run_modes.h"
 #include "engine/core/setting.h"
-#include "ui/setting_labels.h"
+#include "ui/parameters/setting_labels.h"
 
 namespace weft {
 

@@ -7,7 +7,7 @@
 #include "app/editor/editor.h"
 #include "app/editor/gl_pictures.h"
 #include "app/session/session.h"
-#include "ui/shell.h"
+#include "ui/shell/shell.h"
 
 namespace weft {
 

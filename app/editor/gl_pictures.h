@@ -10,7 +10,7 @@
 
 #include "app/editor/gl_screen.h"
 #include "app/editor/gl_textures.h"
-#include "ui/picture_host.h"
+#include "ui/base/picture_host.h"
 
 namespace weft {
 

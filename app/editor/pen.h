@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "ui/pen.h"
+#include "ui/input/pen.h"
 
 namespace weft {
 

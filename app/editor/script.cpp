@@ -11,8 +11,8 @@
 #include "engine/core/input_file.h"
 #include "engine/core/stopwatch.h"
 #include "engine/media/atomic_file.h"
-#include "ui/robot.h"
-#include "ui/view_map.h"
+#include "ui/canvas/view_map.h"
+#include "ui/shell/robot.h"
 
 namespace weft {
 namespace {

@@ -10,7 +10,7 @@
 #include "app/editor/pen.h"
 #include "app/editor/run_modes.h"
 #include "app/editor/second_window.h"
-#include "ui/input_queue.h"
+#include "ui/input/input_queue.h"
 
 namespace weft {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // The settings and commands that messages refer to. A message names them by key; the front end that
 // runs says them in its own terms: flags on the command line (app/cli/setting_flags.h), labels in
-// the editor (ui/setting_labels.h).
+// the editor (ui/parameters/setting_labels.h).
 
 #include <array>
 #include <initializer_list>

@@ -2,7 +2,7 @@
 // Panels with a tool on the canvas.
 
 #include "tests/ui/ui_harness.h"
-#include "ui/view_map.h"
+#include "ui/canvas/view_map.h"
 
 namespace weft::test {
 

@@ -3,7 +3,7 @@
 #include "app/session/where_to_correct.h"
 #include "app/textures/patch_pick.h"
 #include "tests/ui/canvas_fixture.h"
-#include "ui/pen.h"
+#include "ui/input/pen.h"
 
 namespace weft::test {
 namespace {

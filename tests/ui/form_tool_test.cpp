@@ -1,6 +1,6 @@
 // Drawing the form of a surface: what the tool and the Form section emit.
 #include "tests/ui/canvas_fixture.h"
-#include "ui/form_drawing.h"
+#include "ui/form/drawing.h"
 
 namespace weft::test {
 namespace {

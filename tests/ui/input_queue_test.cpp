@@ -1,5 +1,5 @@
 // No event between two frames is lost, and each keeps its position.
-#include "ui/input_queue.h"
+#include "ui/input/input_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "tests/ui/ui_harness.h"
-#include "ui/frame_scale.h"
-#include "ui/key_parts.h"
-#include "ui/shape_box.h"
+#include "ui/mask/shape_box.h"
+#include "ui/timeline/frame_scale.h"
+#include "ui/timeline/key_parts.h"
 
 namespace weft::test {
 namespace {

@@ -4,15 +4,16 @@
 #include <cmath>
 #include <set>
 
-#include "ui/commands.h"
-#include "ui/theme.h"
-#include "ui/view_map.h"
+#include "ui/base/commands.h"
+#include "ui/base/theme.h"
+#include "ui/canvas/view_map.h"
+#include "ui/shell/command_table.h"
 
 namespace weft {
 namespace {
 
 TEST(Keys, EveryDefaultCanBeReadAndComesBackAsItWas) {
-    const Commands commands;
+    const Commands commands(all_commands());
     for (const Command& command : commands.all()) {
         const auto chord = parse_chord(command.default_key);
         ASSERT_TRUE(chord) << command.name << ": " << command.default_key;
@@ -21,25 +22,25 @@ TEST(Keys, EveryDefaultCanBeReadAndComesBackAsItWas) {
 }
 
 TEST(Keys, NoTwoCommandsShareADefault) {
-    EXPECT_THAT(Commands().collisions(), testing::IsEmpty());
+    EXPECT_THAT(Commands(all_commands()).collisions(), testing::IsEmpty());
 }
 
 TEST(Keys, ACollisionIsFound) {
-    Commands commands;
+    Commands commands(all_commands());
     commands.bind({{"view.fit", "Ctrl+S"}});
     ASSERT_EQ(commands.collisions().size(), 1u);
     EXPECT_THAT(commands.collisions()[0], testing::HasSubstr("Ctrl+S"));
 }
 
 TEST(Keys, AnUnreadableBindingLeavesTheDefault) {
-    Commands commands;
+    Commands commands(all_commands());
     commands.bind({{"view.fit", "Hyper+Q"}});
     EXPECT_EQ(commands.key_of("view.fit"), "F");
 }
 
 TEST(Keys, IdsAreUnique) {
     std::set<std::string> ids;
-    const Commands commands;
+    const Commands commands(all_commands());
     for (const Command& command : commands.all())
         EXPECT_TRUE(ids.insert(command.id).second) << command.id;
 }

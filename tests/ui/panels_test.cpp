@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "tests/ui/ui_harness.h"
-#include "ui/view_map.h"
+#include "ui/canvas/view_map.h"
 
 namespace weft::test {
 namespace {

@@ -1,5 +1,5 @@
 // The editor's side of messages: settings by the labels of its panels, and no flag.
-#include "ui/setting_labels.h"
+#include "ui/parameters/setting_labels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tests/ui/canvas_fixture.h"
-#include "ui/plate_snap.h"
+#include "ui/canvas/plate_snap.h"
 
 namespace weft::test {
 namespace {

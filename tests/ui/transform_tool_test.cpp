@@ -1,5 +1,6 @@
 // The transform box: what its handles, the pivot and the arrow keys emit.
 #include "tests/ui/canvas_fixture.h"
+#include "ui/placement/transform_box.h"
 
 namespace weft::test {
 namespace {

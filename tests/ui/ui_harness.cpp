@@ -5,7 +5,7 @@
 #include "app/base/background.h"
 #include "app/render/render_job.h"
 #include "engine/media/frame_writer.h"
-#include "ui/view_map.h"
+#include "ui/canvas/view_map.h"
 
 namespace weft::test {
 namespace {

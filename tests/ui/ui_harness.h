@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "app/session/session.h"
-#include "ui/robot.h"
+#include "ui/shell/robot.h"
 
 namespace weft::test {
 

@@ -3,7 +3,7 @@
 #include "app/textures/patch_pick.h"
 #include "app/textures/provenance.h"
 #include "tests/ui/ui_harness.h"
-#include "ui/view_map.h"
+#include "ui/canvas/view_map.h"
 
 namespace weft::test {
 namespace {

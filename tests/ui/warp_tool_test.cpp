@@ -1,6 +1,6 @@
 // The grid warp tool: what dragged points, handles, boxes and the fields emit.
 #include "tests/ui/canvas_fixture.h"
-#include "ui/warp_grid.h"
+#include "ui/placement/warp_grid.h"
 
 namespace weft::test {
 namespace {

@@ -1,0 +1,104 @@
+// Leaving the document, and the question before it.
+#include <algorithm>
+
+#include "ui/files/files.h"
+#include "ui/widgets/sheet.h"
+#include "ui/widgets/widgets.h"
+
+namespace weft::ui {
+
+void leave_for(Ctx& c, const std::string& what) {
+    if (c.view.modified) {
+        c.state.leave_asked = true;
+        c.state.leave_then = what;
+        return;
+    }
+    if (what == "demo") {
+        c.emit(OpenDemo{});
+    } else if (what == "new") {
+        c.emit(NewProject{});
+    } else if (what == "close") {
+        c.emit(CloseProject{});
+    } else if (what == "browse") {
+        c.state.browser = {};
+        c.state.browser.purpose = BrowserState::Purpose::kOpen;
+        c.state.browser.just_opened = true;
+    } else if (what.starts_with('/')) {
+        c.emit(OpenAny{what});
+    } else if (what.empty()) {
+        c.state.leave = true;
+    }
+}
+
+void leave_question(Ctx& c) {
+    if (!c.state.leave_asked) return;
+    const auto go = [&] {
+        c.state.leave_asked = c.state.leave_when_saved = false;
+        const std::string then = c.state.leave_then;
+        c.state.leave_then.clear();
+        if (then.empty()) c.state.leave = true;
+        if (then == "demo") c.emit(OpenDemo{});
+        if (then == "new") c.emit(NewProject{});
+        if (then == "close") c.emit(CloseProject{});
+        if (then == "browse") c.state.browser.purpose = BrowserState::Purpose::kOpen;
+        if (then.starts_with("/")) c.emit(OpenAny{then});
+    };
+    // Leave only after the save; if it failed, a notice says why and the document stays open.
+    if (c.state.leave_when_saved) {
+        if (c.view.saving) return;
+        if (!c.view.modified) return go();
+        c.state.leave_asked = c.state.leave_when_saved = false;
+        c.state.leave_then.clear();
+        return;
+    }
+    if (!c.view.modified && c.state.leave_then.empty()) {
+        const bool rendering =
+            std::any_of(c.view.jobs.begin(), c.view.jobs.end(), [](const JobView& j) {
+                return j.state == JobState::kRunning || j.state == JobState::kPaused;
+            });
+        if (!rendering) {
+            c.state.leave_asked = false;
+            c.state.leave = true;
+            return;
+        }
+    }
+    const Theme& t = c.theme;
+    bool open = true;
+    const bool modified = c.view.modified;
+    begin_sheet(c, modified ? "Save first?" : "A render is running", {t.px(440), t.px(190)}, open);
+    wrapped(c,
+            modified ? "'" + c.view.title + "' has changes that are not saved."
+                     : "The render continues when the editor is closed; its frames are written "
+                       "to its output folder.",
+            t.text);
+    ImGui::Dummy({0, t.px(12)});
+    if (modified) {
+        if (button(c, "Save", {.look = Look::kPrimary})) {
+            if (c.view.path.empty()) {
+                c.state.leave_asked = false;
+                c.commands.run("file.save", c);
+            } else {
+                c.emit(Save{});
+                c.state.leave_when_saved = true;
+            }
+        }
+        ImGui::SameLine();
+        if (button(c, "Don't save")) go();
+    } else {
+        if (button(c, "Keep rendering", {.look = Look::kPrimary})) go();
+        ImGui::SameLine();
+        if (button(c, "Cancel render", {.look = Look::kDanger})) {
+            for (const JobView& job : c.view.jobs)
+                c.emit(CommandJob{job.id, JobCommand::kCancel});
+            go();
+        }
+    }
+    ImGui::SameLine();
+    if (button(c, "Stay") || !open) {
+        c.state.leave_asked = false;
+        c.state.leave_then.clear();
+    }
+    end_sheet(c);
+}
+
+}  // namespace weft::ui

@@ -1,0 +1,193 @@
+// The Jobs page: a render's settings, and the queue.
+#include <algorithm>
+#include <cmath>
+
+#include "app/render/render_estimate.h"
+#include "ui/base/icons.h"
+#include "ui/jobs/folder_of.h"
+#include "ui/jobs/jobs.h"
+#include "ui/jobs/render_card.h"
+#include "ui/widgets/widgets.h"
+
+namespace weft::ui {
+namespace {
+
+const char* state_name(JobState state) {
+    switch (state) {
+        case JobState::kWaiting:
+            return "Waiting";
+        case JobState::kRunning:
+            return "Rendering";
+        case JobState::kPaused:
+            return "Paused";
+        case JobState::kDone:
+            return "Done";
+        case JobState::kCancelled:
+            return "Cancelled";
+        case JobState::kFailed:
+            return "Failed";
+    }
+    return "";
+}
+
+ImU32 state_color(const Theme& t, JobState state) {
+    switch (state) {
+        case JobState::kDone:
+            return t.good;
+        case JobState::kFailed:
+            return t.bad;
+        case JobState::kPaused:
+        case JobState::kCancelled:
+            return t.warn;
+        case JobState::kRunning:
+            return t.accent_hover;
+        case JobState::kWaiting:
+            break;
+    }
+    return t.quiet;
+}
+
+void job_buttons(Ctx& c, const JobView& job, ImVec2 right_top) {
+    const Theme& t = c.theme;
+    std::vector<std::pair<const char*, const char*>> shown;  // icon, name
+    const bool over = job.state == JobState::kDone || job.state == JobState::kFailed ||
+                      job.state == JobState::kCancelled;
+    if (job.state == JobState::kRunning) shown.emplace_back(icons::kPause, "Pause");
+    if (job.state == JobState::kPaused) shown.emplace_back(icons::kPlay, "Resume");
+    if (!over) shown.emplace_back(icons::kStop, "Cancel");
+    if (job.state == JobState::kFailed || job.state == JobState::kCancelled)
+        shown.emplace_back(icons::kRefresh, "Retry");
+    shown.emplace_back(icons::kConsole, "Log");
+    shown.emplace_back(icons::kFolderOpen, "Show folder");
+    if (job.state == JobState::kDone) shown.emplace_back(icons::kReview, "Review");
+    if (over) shown.emplace_back(icons::kClose, "Remove");
+    const float side = t.px(28);
+    float x = right_top.x - side * static_cast<float>(shown.size());
+    for (const auto& [icon, name] : shown) {
+        ImGui::SetCursorScreenPos({x, right_top.y});
+        const std::string_view what = name;
+        // The frames of another shot are not compared with this plate.
+        const bool other_shot = what == "Review" && job.plate != c.view.plate.path;
+        if (icon_button(c, icon, other_shot ? "Review (open its shot first)" : name,
+                        what == "Log" && c.state.open_log == job.id, nullptr, !other_shot)) {
+            if (what == "Pause") c.emit(CommandJob{job.id, JobCommand::kPause});
+            if (what == "Resume") c.emit(CommandJob{job.id, JobCommand::kResume});
+            if (what == "Cancel") c.emit(CommandJob{job.id, JobCommand::kCancel});
+            if (what == "Retry") c.emit(CommandJob{job.id, JobCommand::kRetry});
+            if (what == "Remove") c.emit(CommandJob{job.id, JobCommand::kRemove});
+            if (what == "Log") c.state.open_log = c.state.open_log == job.id ? 0 : job.id;
+            if (what == "Show folder") c.pictures.reveal(folder_of(job.output));
+            if (what == "Review") {
+                c.emit(MeasureResult{job.output});
+                set_workspace(c.state, Workspace::kReview);
+            }
+        }
+        x += side;
+    }
+}
+
+void job_row(Ctx& c, const JobView& job) {
+    const Theme& t = c.theme;
+    ImGui::PushID(job.id);
+    const PanelName name(c, "Job " + std::to_string(job.id));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float w = ImGui::GetContentRegionAvail().x, h = t.px(92);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + w, at.y + h}, t.raised, t.radius);
+    const ImVec2 thumb_max(at.x + t.px(132), at.y + h - t.px(8));
+    const ImVec2 thumb_min(at.x + t.px(8), at.y + t.px(8));
+    list.AddRectFilled(thumb_min, thumb_max, t.field, t.radius);
+    if (job.thumbnail)
+        if (const ImTextureID id = c.pictures.texture(job.thumbnail)) {
+            const float scale = std::min((thumb_max.x - thumb_min.x) / job.thumbnail->size.width,
+                                         (thumb_max.y - thumb_min.y) / job.thumbnail->size.height);
+            const float iw = job.thumbnail->size.width * scale,
+                        ih = job.thumbnail->size.height * scale;
+            const ImVec2 a((thumb_min.x + thumb_max.x - iw) * 0.5f,
+                           (thumb_min.y + thumb_max.y - ih) * 0.5f);
+            list.AddImage(id, a, {a.x + iw, a.y + ih});
+        }
+    const float x = thumb_max.x + t.px(14), right = at.x + w - t.px(10);
+    text_in(list, t.strong, {x, at.y + t.px(10)}, {right - t.px(150), at.y + t.px(28)}, t.text,
+            fitted(job.label, right - t.px(170) - x).c_str(), 0);
+    ImGui::PushFont(t.small);
+    text_in(list, t.small, {x, at.y + t.px(29)}, {right, at.y + t.px(45)}, t.quiet,
+            fitted(job.output, right - x, true).c_str(), 0);
+    const float part =
+        job.total > 0 ? static_cast<float>(job.done) / static_cast<float>(job.total) : 0;
+    const float bar_y = at.y + t.px(50);
+    list.AddRectFilled({x, bar_y}, {right, bar_y + t.px(6)}, t.field, t.px(3));
+    if (part > 0)
+        list.AddRectFilled({x, bar_y}, {x + (right - x) * part, bar_y + t.px(6)},
+                           state_color(t, job.state), t.px(3));
+    std::string line = state_name(job.state);
+    if (job.state == JobState::kRunning && job.stage == "analyse") line = "Analysing";
+    if (job.state == JobState::kRunning && job.stage.empty()) line = "Starting";
+    if (!job.error.empty()) {
+        line += ". " + job.error;
+    } else {
+        if (job.total > 0)
+            line += "  " + std::to_string(job.done) + " of " + std::to_string(job.total);
+        if (job.left_s > 0) line += "   " + time_text(job.left_s) + " left";
+        if (job.frames_per_minute > 0)
+            line += "   " + number_text(job.frames_per_minute, 1) + " frames a minute";
+        const bool done = job.state == JobState::kDone;
+        if (job.elapsed_s > 0)
+            line += std::string(done ? "   in " : "   ") + time_text(job.elapsed_s) +
+                    (done ? "" : " elapsed");
+    }
+    text_in(list, t.small, {x, at.y + t.px(61)}, {right, at.y + t.px(80)},
+            state_color(t, job.state), fitted(line, right - x).c_str(), 0);
+    ImGui::PopFont();
+    job_buttons(c, job, {right, at.y + t.px(4)});
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({w, h});
+    if (c.state.open_log == job.id && c.job_log) {
+        const std::string log = c.job_log(job.id);
+        ImGui::PushStyleColor(ImGuiCol_ChildBg, t.field);
+        ImGui::BeginChild("##log", {0, t.px(140)}, true);
+        ImGui::PushFont(t.small);
+        wrapped(c, log.empty() ? "The log is empty: no errors or warnings." : log, t.quiet);
+        ImGui::PopFont();
+        ImGui::EndChild();
+        ImGui::PopStyleColor();
+    }
+    ImGui::PopID();
+}
+
+}  // namespace
+
+void jobs_page(Ctx& c, ImVec2 size) {
+    const Theme& t = c.theme;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float left = std::min(t.px(400), size.x * 0.42f);
+    render_card(c, {left, size.y});
+    ImGui::SetCursorScreenPos({at.x + left, at.y});
+    begin_panel(c, "Queue", {size.x - left, size.y}, t.panel, true, t.px(16));
+    ImGui::GetWindowDrawList()->AddLine({at.x + left, at.y}, {at.x + left, at.y + size.y}, t.line);
+    ImGui::PushFont(t.title);
+    ImGui::TextUnformatted("Queue");
+    ImGui::PopFont();
+    ImGui::Dummy({0, t.px(4)});
+    if (c.view.jobs.empty()) {
+        empty_state(c, icons::kJobs, "No renders yet",
+                    "Set up a render on the left. It runs in the background: you can keep working "
+                    "or close the window.");
+    }
+    for (auto job = c.view.jobs.rbegin(); job != c.view.jobs.rend(); ++job)
+        job_row(c, *job);
+    end_panel(c);
+}
+
+void learn_from_jobs(Ctx& c) {
+    for (const JobView& job : c.view.jobs) {
+        if (job.state != JobState::kDone || job.estimated_s <= 0 ||
+            c.state.calibrated_jobs.contains(job.id))
+            continue;
+        c.state.calibrated_jobs.insert(job.id);
+        c.settings.render_speed =
+            calibrated_speed(c.settings.render_speed, job.estimated_s, job.elapsed_s);
+    }
+}
+
+}  // namespace weft::ui
