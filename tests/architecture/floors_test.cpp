@@ -370,7 +370,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"app/session/document/a.h", "#include \"app/session/session.h\"\n", "may not use"},
         Case{"app/session/viewer/a.h", "#include \"app/session/mattes/b.h\"\n", "may not use"},
         Case{"app/session/action.h", "#include \"app/session/document/b.h\"\n", "may not use"},
-        Case{"ui/a.cpp", "#include \"app/session/session.h\"\n", "may not use"},
+        Case{"ui/base/a.cpp", "#include \"app/session/session.h\"\n", "may not use"},
         Case{"app/cli/a.cpp", "#include \"app/session/session.h\"\n", "may not use"},
         Case{"app/cli/a.cpp", "#include \"app/preview/preview.h\"\n", "may not use"},
         Case{"app/cli/a.cpp", "#include \"app/render/render_job.h\"\n", ""},
