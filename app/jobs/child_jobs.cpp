@@ -19,6 +19,7 @@
 #include "app/project/codec/project_file.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/input_file.h"
+#include "engine/core/stopwatch.h"
 #include "engine/media/image_files.h"
 #include "engine/media/sequence_pattern.h"
 
@@ -26,7 +27,6 @@ namespace weft {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 constexpr int kThumbnailPx = 192;
 
@@ -240,8 +240,7 @@ void ChildJobs::run(const std::shared_ptr<Shared>& shared, const std::shared_ptr
         const std::lock_guard lock(shared->mutex);
         JobView& view = job->view;
         job->pid = -1;
-        view.elapsed_s =
-            std::chrono::duration<double>(Clock::now() - start).count() - job->paused_s;
+        view.elapsed_s = seconds_since(start) - job->paused_s;
         view.left_s = 0;
         // Of a finished job the rate is that of the whole time, as the line beside it says.
         if (good && view.elapsed_s > 0) view.frames_per_minute = 60.0 * view.total / view.elapsed_s;
@@ -293,7 +292,7 @@ void ChildJobs::resume(int id) {
         if (job->view.id != id || job->view.state != JobState::kPaused || job->pid <= 0) continue;
         ::kill(job->pid, SIGCONT);
         job->view.state = JobState::kRunning;
-        job->paused_s += std::chrono::duration<double>(Clock::now() - job->paused_at).count();
+        job->paused_s += seconds_since(job->paused_at);
         ++shared_->changes;
     }
 }

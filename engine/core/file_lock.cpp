@@ -9,10 +9,10 @@
 #include <thread>
 #include <utility>
 
+#include "engine/core/stopwatch.h"
+
 namespace weft {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr auto kPause = std::chrono::milliseconds(10);
 

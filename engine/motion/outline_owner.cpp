@@ -39,12 +39,12 @@ double occluded_share(ViewU8x1 luma, ViewU8x1 extent, const LatticeField& outlin
                       const LatticeField& inside, const FlowField& raw, Vec2 unseen) {
     // Raw motion is a mixture so near to an edge.
     constexpr float kAway_px = 7;
-    constexpr int kMargin_px = 12;  // from the frame's border
+    constexpr int kFrameMargin_px = 12;  // from the frame's border
     // Slower than that the two sides cannot be told apart.
     constexpr float kApart_px = 0.5f, kWith = 0.3f, kFacing = 0.7f;
     int told = 0, with_outside = 0;
-    for (int y = kMargin_px; y < extent.height() - kMargin_px; ++y) {
-        for (int x = kMargin_px; x < extent.width() - kMargin_px; ++x) {
+    for (int y = kFrameMargin_px; y < extent.height() - kFrameMargin_px; ++y) {
+        for (int x = kFrameMargin_px; x < extent.width() - kFrameMargin_px; ++x) {
             if ((x + y) % 3 != 0 || extent.at(x, y) < 128) continue;
             if (extent.at(x - 1, y) >= 128 && extent.at(x + 1, y) >= 128 &&
                 extent.at(x, y - 1) >= 128 && extent.at(x, y + 1) >= 128)

@@ -279,7 +279,7 @@ LatticeField refine_planar(const RegistrationPicture& anchor, const Registration
                            const LatticeField& found, const RegistrationOptions& options) {
     constexpr double kWanted_px = 0.01, kFarthest_px = 1;
     constexpr double kMost = 400000;
-    constexpr int kRounds = 4;
+    constexpr int kPlanarRounds = 4;
     const RegistrationSamples samples = registration_samples(cur, options.samples);
     Homography map = about(cur);
     if (!start_from(found, samples, map)) return found;
@@ -290,7 +290,7 @@ LatticeField refine_planar(const RegistrationPicture& anchor, const Registration
     const RegistrationSamples more = registration_samples(cur, wanted);
     if (more.size() <= samples.size()) return found;
     double moved = 1;
-    for (int k = 0; k < kRounds && moved > kStill; ++k) {
+    for (int k = 0; k < kPlanarRounds && moved > kStill; ++k) {
         moved = planar_step(anchor, more, noise, true, map);
         if (moved < 0 || moved > kFarthest_px) return found;
     }

@@ -196,7 +196,6 @@ RegistrationFit registration_fit(const RegistrationPicture& anchor, const Regist
                                  const RegistrationOptions& options) {
     // Saturating: a pixel that shows something else counts as one that shows nothing.
     constexpr double kMost = 1.0;
-    RegistrationFit fit;
     double sum = 0;
     std::size_t seen = 0, agreeing = 0;
     const RegistrationSamples samples = registration_samples(cur, options.samples / 2);

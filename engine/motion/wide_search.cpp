@@ -97,11 +97,11 @@ LatticeField misses_of_parts(const FlowField& misses, ViewU8x1 weights, const La
 WideSearch search_around(const SurfaceView& anchor, const SurfaceView& cur, ViewU8x1 luma,
                          const LatticeField& expected, MissedBy missed, FlowQuality quality) {
     if (anchor.picture.area.empty() || cur.picture.area.empty()) return {expected, 0};
-    constexpr int kBorder_px = 6;
+    constexpr int kMatteBorder_px = 6;
     const MovedAnchor moved = moved_to(anchor, cur.picture.area, expected);
     const FlowField misses =
         estimate_surface_flow(cur, {moved.picture, moved.visible}, expected.full_size(), quality);
-    const Matte weights = motion_weights(luma, cur.visible, misses.valid, kBorder_px);
+    const Matte weights = motion_weights(luma, cur.visible, misses.valid, kMatteBorder_px);
     const LatticeField by = missed == MissedBy::kParts
                                 ? misses_of_parts(misses, weights, expected)
                                 : misses_of_surface(misses, weights, expected.spacing());
