@@ -29,6 +29,7 @@ class MovieMatte : public CliTest {
     /// The mattes of the shot's first frames, as a lossless movie.
     void put_mattes(const std::string& name, int frames) const {
         std::vector<ImageF3> all;
+        all.reserve(static_cast<std::size_t>(frames));
         for (int step = 0; step < frames; ++step)
             all.push_back(grey(card_matte(step)));
         put_movie(name, all);
@@ -49,9 +50,10 @@ class MovieMatte : public CliTest {
     void expect_same_pictures(const std::string& one, const std::string& other, int frames) const {
         ASSERT_EQ(names(one).size(), static_cast<std::size_t>(frames));
         for (const std::string& name : names(one)) {
-            std::string path(one);
+            std::string path(one), expected(other);
             path += "/" + name;
-            EXPECT_EQ(picture(path).rgb, picture(other + "/" + name).rgb) << name;
+            expected += "/" + name;
+            EXPECT_EQ(picture(path).rgb, picture(expected).rgb) << name;
         }
     }
 };
@@ -70,6 +72,7 @@ TEST_F(MovieMatte, BelongsToThePlatesFirstFrameIfThatIsAMovieToo) {
     make_shot(4);
     put_mattes("m.mkv", 4);
     std::vector<ImageF3> plates;
+    plates.reserve(4);
     for (int step = 0; step < 4; ++step)
         plates.push_back(card_plate(step));
     put_movie("p.mkv", plates);

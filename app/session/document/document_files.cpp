@@ -116,7 +116,8 @@ void DocumentFiles::find_render_folder() {
         render_folder_ = folder(own.parent_path() / (own.stem().string() + "_"), 1);
         return;
     }
-    const char* home = std::getenv("HOME");
+    // Nothing changes the environment while threads run.
+    const char* home = std::getenv("HOME");  // NOLINT(concurrency-mt-unsafe)
     const std::string& given = use_.document.project().name;
     const std::string name = given.empty() ? "Untitled" : given;
     const fs::path base = fs::path(home && *home ? home : "/tmp") / "weft" / name / "";

@@ -22,7 +22,7 @@ std::string shot_name(const std::string& path) {
                                                "image",  "png",    "exr",    "jpg",    "jpeg",
                                                "rgb",    "beauty", "footage"};
     const fs::path whole(path);
-    const std::string own = whole.filename().string();
+    std::string own = whole.filename().string();
     for (fs::path at = whole; at.has_relative_path(); at = at.parent_path()) {
         const std::string stem = at.stem().string();
         const bool numbered = stem.find_first_not_of("0123456789#%d@") == std::string::npos;
