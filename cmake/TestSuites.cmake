@@ -1,6 +1,6 @@
 # Read by ctest before it runs: makes one test of each suite of a GoogleTest program, which is faster than one of each
-# test by as many starts of the program. The caller sets `program`, `name`, `timeout` and `labels`. What a program holds
-# is asked of the program itself, once after each build, so that no suite can be left out.
+# test by as many starts of the program. The caller sets `program`, `folder`, `name`, `timeout` and `labels`. What a
+# program holds is asked of the program itself, once after each build, so that no suite can be left out.
 if(NOT EXISTS "${program}")
     add_test("${name}_not_built" "${program}")
     return()
@@ -19,6 +19,9 @@ if("${program}" IS_NEWER_THAN "${list}")
     file(WRITE "${list}" "${suites}")
 endif()
 file(READ "${list}" suites)
+if(NOT suites)
+    add_test("${name}_has_no_tests" "${CMAKE_COMMAND}" -E false)
+endif()
 foreach(suite IN LISTS suites)
     string(REGEX REPLACE "\\.$" "" title "${suite}")
     add_test("${name}.${title}" "${program}" "--gtest_filter=${suite}*")

@@ -97,6 +97,7 @@ show_build_progress() {
             continue
         fi
         done_steps=${BASH_REMATCH[1]} all_steps=${BASH_REMATCH[2]}
+        ((done_steps > 0)) || continue  # CMake runs again first
         gone=$((SECONDS - started))
         left=$((gone * (all_steps - done_steps) / done_steps))
         line="weft: step $done_steps of $all_steps, $(minutes $gone) gone, about $(minutes $left) left"
