@@ -116,13 +116,20 @@ struct Departure::Step {
     }
 };
 
+// What a frame's motion can tell.
+struct Departure::Evidence {
+    Shares ratios;  // log odds of each departure, whether or not the two can be told apart
+    float trust;    // how far motion tells inside and outside apart, 0 to 1
+    float shown;    // whether enough of the surface is seen to trust what it hardly does, 0 to 1
+};
+
 Departure::Departure(ViewF1 key_phi) : age_(key_phi.size()), odds_(key_phi.size()) {
     for (int y = 0; y < key_phi.height(); ++y)
         for (int x = 0; x < key_phi.width(); ++x)
             age_.at(x, y) = key_phi.row(y)[x] > 0 ? kOldest : 0.0f;
 }
 
-void Departure::count(const Step& step) {
+Departure::Evidence Departure::count(const Step& step) {
     Shares inside{}, outside{};
     float shown = 0;
     const int stride = stride_of(kStride_px, step.unit_px);
@@ -143,8 +150,9 @@ void Departure::count(const Step& step) {
     most_inside_ = std::max(most_inside_, samples);
     if (samples > kTooFew * most_inside_) blend_in(inside_, inside);
     most_shown_ = std::max(most_shown_, shown);
-    shown_ = smooth_step(shown / std::max(most_shown_, 1.0f), kHalfShown, kShown);
     blend_in(outside_, outside);
+    return {ratios(smoothed(inside_)), trust(),
+            smooth_step(shown / std::max(most_shown_, 1.0f), kHalfShown, kShown)};
 }
 
 // How far the motion of inside and outside differs, 0 to 1.
@@ -156,7 +164,6 @@ float Departure::trust() const {
     return smooth_step(apart, kAlike, kApart);
 }
 
-// Log odds of each departure, whether or not motion tells inside and outside apart.
 Departure::Shares Departure::ratios(const Shares& in) const {
     const Shares out = smoothed(outside_);
     Shares ratios{};
@@ -169,16 +176,16 @@ Departure::Shares Departure::ratios(const Shares& in) const {
 
 // What one frame says of a pixel.
 float Departure::odds_now(const DepartureInput& in, Vec2i at, float departure,
-                          const Shares& ratios) const {
+                          const Evidence& evidence) const {
     const float bin = std::min(bin_of(departure), static_cast<float>(kBins) - 1.001f);
     const auto i = static_cast<std::size_t>(bin);
     const float part = bin - static_cast<float>(i);
     const auto read = [&](const Shares& of) { return (1 - part) * of[i] + part * of[i + 1]; };
-    const float now = read(ratios);
-    if (now > 0) return trust_ * kForWeight * now;
-    const float young = trust_ * std::exp(-age_.at(at.x, at.y) / kYoung);
+    const float now = read(evidence.ratios);
+    if (now > 0) return evidence.trust * kForWeight * now;
+    const float young = evidence.trust * std::exp(-age_.at(at.x, at.y) / kYoung);
     // A departure that the surface hardly has needs no other difference between it and the rest.
-    float old = shown_ * kAgainstOld * (1 - smooth_step(read(inside_), kRare, kCommon));
+    float old = evidence.shown * kAgainstOld * (1 - smooth_step(read(inside_), kRare, kCommon));
     if (now == 0 || old <= young || !in.area.contains(at.x, at.y)) return now * young;
     const float* surface = in.surface_motion.pixel(at.x - in.area.x0, at.y - in.area.y0);
     const float* measured = in.flow.d.pixel(at.x, at.y);
@@ -189,12 +196,10 @@ float Departure::odds_now(const DepartureInput& in, Vec2i at, float departure,
 
 const ImageF1& Departure::advance(const DepartureInput& in) {
     const Step step(in.prev_phi, in.flow, in.unit_px);
-    count(step);
+    const Evidence evidence = count(step);
     Shares any;
     any.fill(1.0f / kBins);
-    const Shares ratios = this->ratios(smoothed(inside_));
-    any = this->ratios(any);
-    trust_ = trust();
+    any = ratios(any);
     const Size size = in.prev_phi.size();
     const ImageF1 age_before = std::exchange(age_, ImageF1(size));
     ImageF1 odds(size);
@@ -208,8 +213,8 @@ const ImageF1& Departure::advance(const DepartureInput& in) {
                     age_.at(x, y) = std::min(before(age_before, in.flow, x, y) + 1, kOldest);
                 const float departure = step.departure(x, y);
                 const float bin = std::min(bin_of(departure), static_cast<float>(kBins - 1));
-                departs_.at(x, y) = trust_ * any[static_cast<std::size_t>(bin)];
-                const float now = odds_now(in, {x, y}, departure, ratios);
+                departs_.at(x, y) = evidence.trust * any[static_cast<std::size_t>(bin)];
+                const float now = odds_now(in, {x, y}, departure, evidence);
                 float sum = known ? kDepartureMemory * before(odds_, in.flow, x, y) : 0.0f;
                 // What moves with the background now was taken for surface by an edge's motion.
                 if (now < 0) sum = std::min(sum, 0.0f);

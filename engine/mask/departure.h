@@ -29,7 +29,8 @@ struct DepartureInput {
 /// it do, gives no evidence. Motion speaks against what has just come in, such as the ground that a
 /// car uncovers, and hardly against what has long been inside and got there by its own motion, such
 /// as a foot that rests; against that only where the picture tells both motions apart, since what
-/// is plain seems to move as its surroundings do. Not thread-safe.
+/// is plain seems to move as its surroundings do, and then also where the rest of inside and
+/// outside move alike, such as an arm in front of a wall. Not thread-safe.
 class Departure {
   public:
     /// `key_phi`: signed distance of the painted matte, px.
@@ -57,18 +58,18 @@ class Departure {
     using Shares = std::array<float, kBins>;
 
     struct Step;
-    void count(const Step& step);
+    struct Evidence;
+    [[nodiscard]] Evidence count(const Step& step);
     [[nodiscard]] float trust() const;
     [[nodiscard]] Shares ratios(const Shares& inside) const;
     [[nodiscard]] float odds_now(const DepartureInput& in, Vec2i at, float departure,
-                                 const Shares& ratios) const;
+                                 const Evidence& evidence) const;
 
     ImageF1 age_;             // for how many frames each pixel of the last frame has been inside
     ImageF1 odds_, departs_;  // of the last frame
     Shares inside_{}, outside_{};  // running shares of each departure
     float most_inside_ = 0;        // samples that a frame had inside
     float most_shown_ = 0;         // samples that a frame had inside, whatever their age
-    float shown_ = 0, trust_ = 0;  // of this frame, 0 to 1
 };
 
 /// Adds what Departure::advance() says to the log odds near the boundary and to those that reopen a

@@ -149,5 +149,44 @@ TEST(Departure, SparesWhatWasConfirmedInside) {
     EXPECT_GT(odds_of(true), -1.2f);
 }
 
+TEST(Departure, SpeaksAgainstWhatASurfaceHardlyDoesThoughItRestsOnItsBackground) {
+    // An arm in front of a wall, and somebody beside it who moves likewise. Of the wall all is
+    // seen, or little: what its motion is beside that which hides it is not known then.
+    const auto odds_of_arm = [](int shown_to_y) {
+        constexpr Recti kArm{150, 90, 158, 98}, kWallAndBeside{100, 60, 220, 180};
+        const Recti wall{120, 80, 200, 160};
+        const auto phi_to = [&](int y1) {
+            Matte inside(kDepartureFrame);
+            for (int y = wall.y0; y < y1; ++y)
+                for (int x = wall.x0; x < wall.x1; ++x)
+                    inside.at(x, y) = 1;
+            return signed_distance(inside, 40);
+        };
+        ImageU8x3 before(kDepartureFrame), now(kDepartureFrame);
+        FlowField rests(kDepartureFrame), flow(kDepartureFrame);
+        const auto code = [](int x, int y) {
+            return static_cast<std::uint8_t>(x * x * 7 + y * 53);
+        };
+        for (int y = 0; y < kDepartureFrame.height; ++y) {
+            for (int x = 0; x < kDepartureFrame.width; ++x) {
+                const bool small = !kWallAndBeside.contains(x, y) && x % 20 < 8 && y % 20 < 8;
+                const bool moves = small || kArm.contains(x, y);
+                rests.valid.row(y)[x] = flow.valid.row(y)[x] = 1;
+                flow.d.pixel(x, y)[0] = moves ? -6.0f : 0.0f;
+                before.pixel(x, y)[1] = code(x, y);
+                now.pixel(x, y)[1] = code(moves ? x - 6 : x, y);
+            }
+        }
+        const ImageF1 whole = phi_to(wall.y1), seen = phi_to(shown_to_y);
+        const ImageF2 still(kDepartureFrame);
+        const Recti all = rect_of(kDepartureFrame);
+        Departure departure(whole);
+        (void)departure.advance({whole, rests, still, before, before, all, 1});
+        return departure.advance({seen, flow, still, now, before, all, 1}).at(154, 94);
+    };
+    EXPECT_LT(odds_of_arm(160), -0.2f);
+    EXPECT_GT(odds_of_arm(105), -0.05f);
+}
+
 }  // namespace
 }  // namespace weft
