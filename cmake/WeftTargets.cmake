@@ -21,7 +21,7 @@ endfunction()
 
 # weft_precompile(NAME header…)
 #   Headers that nearly every source of a library includes, parsed once for all of them. The sources include what they
-#   use all the same: the builds that join sources (preset "joined"), and clang-tidy, go without.
+#   use all the same: unity builds (preset "unity"), and clang-tidy, go without.
 function(weft_precompile name)
     target_precompile_headers(weft_${name} PRIVATE ${ARGN})
     # For the compiler cache.
