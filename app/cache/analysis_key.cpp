@@ -15,7 +15,7 @@ namespace weft {
 namespace {
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 39;
+constexpr int kAnalysisVersion = 40;
 constexpr int kFormVersion = 6;   // of the form alone
 constexpr int kFocusVersion = 2;  // of the focus alone
 
@@ -203,7 +203,7 @@ Expected<std::string> surface_key(const Shot& shot, std::size_t index, const Fil
     hasher.value(plan.estimates_shutter());
     for (const int frame : plan.shutter_evidence)
         hasher.value(frame);
-    hasher.value(static_cast<int>(plan.temporal));
+    hasher.value(static_cast<int>(plan.temporal)).value(static_cast<int>(plan.surface));
     if (plan.temporal == TemporalMode::kPaper && plan.texture) {
         for (const ImageF3& further : plan.texture->also)
             hasher.image(further);

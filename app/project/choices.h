@@ -117,6 +117,15 @@ struct Choices<SeamCost> {
         {{SeamCost::kGradient, "gradient"}, {SeamCost::kPaper, "paper"}}};
 };
 template <>
+struct Choices<SurfaceKind> {
+    static constexpr std::array<std::pair<SurfaceKind, std::string_view>, 5> kNames{
+        {{SurfaceKind::kFound, "found"},
+         {SurfaceKind::kPlane, "plane"},
+         {SurfaceKind::kRigid, "rigid"},
+         {SurfaceKind::kCloth, "cloth"},
+         {SurfaceKind::kBody, "body"}}};
+};
+template <>
 struct Choices<TemporalMode> {
     static constexpr std::array<std::pair<TemporalMode, std::string_view>, 3> kNames{
         {{TemporalMode::kLocked, "locked"},

@@ -119,14 +119,7 @@ template <class Owner>
                                         std::string_view text);
 
 // Names of the choices in files and on the command line.
-[[nodiscard]] std::string_view choice_name(Quality value);
-[[nodiscard]] std::string_view choice_name(OutputDepth value);
-[[nodiscard]] std::string_view choice_name(WrapMode value);
-[[nodiscard]] std::string_view choice_name(PlaneMode value);
-[[nodiscard]] std::string_view choice_name(MotionDirection value);
-[[nodiscard]] std::string_view choice_name(SeamMethod value);
 [[nodiscard]] std::string_view choice_name(TemporalMode value);
 [[nodiscard]] std::string_view choice_name(LightSource value);
-[[nodiscard]] std::string_view choice_name(LightForm value);
 
 }  // namespace weft

@@ -32,6 +32,7 @@
 #include "engine/seam/seam_cost.h"
 #include "engine/synthesis/plane_amendment.h"
 #include "engine/synthesis/plane_mode.h"
+#include "engine/temporal/surface_kind.h"
 #include "engine/temporal/temporal_mode.h"
 
 namespace weft {
@@ -222,6 +223,7 @@ struct TemporalParams {
     TemporalMode mode = TemporalMode::kLocked;
     double blend = 0.2;  ///< The paper's α (eq. 6).
     double weight = 1;   ///< The paper's λ_t (eq. 5).
+    SurfaceKind surface = SurfaceKind::kFound;
     Extras extra;
     bool operator==(const TemporalParams&) const = default;
 };

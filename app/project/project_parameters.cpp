@@ -134,31 +134,10 @@ std::span<const Parameter<Project>> project_parameters() {
     return table;
 }
 
-std::string_view choice_name(Quality value) {
-    return name_of(value);
-}
-std::string_view choice_name(OutputDepth value) {
-    return name_of(value);
-}
-std::string_view choice_name(WrapMode value) {
-    return name_of(value);
-}
-std::string_view choice_name(PlaneMode value) {
-    return name_of(value);
-}
-std::string_view choice_name(MotionDirection value) {
-    return name_of(value);
-}
-std::string_view choice_name(SeamMethod value) {
-    return name_of(value);
-}
 std::string_view choice_name(TemporalMode value) {
     return name_of(value);
 }
 std::string_view choice_name(LightSource value) {
-    return name_of(value);
-}
-std::string_view choice_name(LightForm value) {
     return name_of(value);
 }
 

@@ -240,6 +240,12 @@ std::vector<Parameter<Region>> make_region_table() {
              .help = "Weight of similarity to the previous frame in seam selection (λ_t)",
              .min = 0,
              .max = 100}),
+        entry<R, &R::temporal, &TemporalParams::surface>(
+            {.group = "temporal",
+             .key = "surface",
+             .flag = "--surface",
+             .help = "What moves: found from the clip, one rigid plane, a rigid thing, cloth that "
+                     "bends, or a body with joints"}),
     };
     table.insert(table.end(), std::begin(rest), std::end(rest));
     for (auto& part : {form_parameters(), look_parameters()})

@@ -296,6 +296,7 @@ void project_synthesis(const SynthesisParams& synthesis, RegionPlan& plan) {
 
 void project_temporal(const TemporalParams& temporal, RegionPlan& plan) {
     plan.temporal = temporal.mode;
+    plan.surface = temporal.surface;
     plan.blend = static_cast<float>(temporal.blend);
     plan.weight = static_cast<float>(temporal.weight);
 }

@@ -32,29 +32,30 @@ glm::dmat3 fit_trimmed(std::vector<PlacePair> pairs) {
     return fit_plane(pairs);
 }
 
-}  // namespace
-
-LatticeField fit_flat_motion(ViewF2 flow, ViewU8x1 weights, int spacing_px) {
+// Calls visit(p) for at most some thousand places on a grid over what a picture of weights knows.
+template <class Visit>
+void each_known(ViewU8x1 weights, std::uint8_t least, const Visit& visit) {
     constexpr std::int64_t kMostPairs = 1000;
     std::int64_t known = 0;
     for (int y = 0; y < weights.height(); ++y) {
         const std::uint8_t* row = weights.row(y);
-        known += weights.width() - std::count(row, row + weights.width(), 0);
+        known +=
+            std::count_if(row, row + weights.width(), [&](std::uint8_t w) { return w >= least; });
     }
     int stride = 1;
     while (known / (std::int64_t{stride} * stride) > kMostPairs)
         ++stride;
-    std::vector<PlacePair> pairs;
-    for (int y = stride / 2; y < weights.height(); y += stride) {
-        for (int x = stride / 2; x < weights.width(); x += stride) {
-            if (weights.at(x, y) == 0) continue;
-            const Vec2 p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-            const float* d = flow.pixel(x, y);
-            pairs.push_back({p, p + Vec2(d[0], d[1])});
-        }
-    }
-    const glm::dmat3 plane = fit_trimmed(std::move(pairs));
-    LatticeField out(flow.size(), spacing_px);
+    for (int y = stride / 2; y < weights.height(); y += stride)
+        for (int x = stride / 2; x < weights.width(); x += stride)
+            if (weights.at(x, y) >= least) visit(x, y);
+}
+
+Vec2 centre(int x, int y) {
+    return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+}
+
+LatticeField field_of_plane(const glm::dmat3& plane, Size size, int spacing_px) {
+    LatticeField out(size, spacing_px);
     for (int j = 0; j < out.nodes().height(); ++j) {
         for (int i = 0; i < out.nodes().width(); ++i) {
             const Vec2 p = out.node_position(i, j);
@@ -62,6 +63,28 @@ LatticeField fit_flat_motion(ViewF2 flow, ViewU8x1 weights, int spacing_px) {
         }
     }
     return out;
+}
+
+}  // namespace
+
+LatticeField fit_flat_motion(ViewF2 flow, ViewU8x1 weights, int spacing_px) {
+    std::vector<PlacePair> pairs;
+    each_known(weights, 1, [&](int x, int y) {
+        const Vec2 p = centre(x, y);
+        const float* d = flow.pixel(x, y);
+        pairs.push_back({p, p + Vec2(d[0], d[1])});
+    });
+    return field_of_plane(fit_trimmed(std::move(pairs)), flow.size(), spacing_px);
+}
+
+LatticeField flattened(const LatticeField& field, ViewU8x1 visible) {
+    constexpr std::uint8_t kHalf = 128;
+    std::vector<PlacePair> pairs;
+    each_known(visible, kHalf, [&](int x, int y) {
+        const Vec2 p = centre(x, y);
+        pairs.push_back({p, p + field.at(p)});
+    });
+    return field_of_plane(fit_trimmed(std::move(pairs)), field.full_size(), field.spacing());
 }
 
 }  // namespace weft

@@ -11,4 +11,8 @@ namespace weft {
 /// lattice. Pure; deterministic.
 [[nodiscard]] LatticeField fit_flat_motion(ViewF2 flow, ViewU8x1 weights, int spacing_px);
 
+/// The homography nearest to a field over what is `visible` (H×W, at least a half covered), defined
+/// everywhere. Pure; deterministic.
+[[nodiscard]] LatticeField flattened(const LatticeField& field, ViewU8x1 visible);
+
 }  // namespace weft

@@ -81,9 +81,11 @@ struct RegistrationLead {
 /// The correlations of the two pictures under either map, compared in pairs in cells of 24 px; the
 /// mean of their differences, and in units of its standard error. A Student's t: beyond ±2 it is
 /// hardly chance, in noise it is about ±1, however faint the surface or strong the grain. 0 if too
-/// few cells can be compared. Pure; deterministic.
+/// few cells can be compared. `left_out`: the share of the cells, those in which the first map
+/// leads most, that do not count, 0–0.5. Pure; deterministic.
 [[nodiscard]] RegistrationLead registration_lead(const RegistrationPicture& anchor,
                                                  const RegistrationPicture& cur,
-                                                 const LatticeField& a, const LatticeField& b);
+                                                 const LatticeField& a, const LatticeField& b,
+                                                 double left_out = 0);
 
 }  // namespace weft

@@ -298,16 +298,26 @@ double registration_agreement(const RegistrationPicture& anchor, const Registrat
 
 RegistrationLead registration_lead(const RegistrationPicture& anchor,
                                    const RegistrationPicture& cur, const LatticeField& a,
-                                   const LatticeField& b) {
+                                   const LatticeField& b, double left_out) {
     constexpr int kSamples = 40000;
     constexpr std::size_t kFewest = 3;
     constexpr double kLeast = 1e-4;  // standard error: two maps may be the same
     const auto cells = correlations<2>(anchor, cur, {&a, &b}, kSamples);
-    if (cells.size() < kFewest) return {};
-    const double n = static_cast<double>(cells.size());
+    std::vector<double> leads;
+    leads.reserve(cells.size());
+    for (const auto& cell : cells)
+        leads.push_back(cell[0] - cell[1]);
+    if (left_out > 0) {
+        const std::size_t kept =
+            cells.size() - static_cast<std::size_t>(left_out * static_cast<double>(cells.size()));
+        std::nth_element(leads.begin(), leads.begin() + static_cast<std::ptrdiff_t>(kept) - 1,
+                         leads.end());
+        leads.resize(kept);
+    }
+    if (leads.size() < kFewest) return {};
+    const double n = static_cast<double>(leads.size());
     double sum = 0, squares = 0;
-    for (const auto& cell : cells) {
-        const double lead = cell[0] - cell[1];
+    for (const double lead : leads) {
         sum += lead;
         squares += lead * lead;
     }

@@ -35,6 +35,7 @@
 #include "engine/synthesis/sample_atlas.h"
 #include "engine/temporal/correction.h"
 #include "engine/temporal/placement.h"
+#include "engine/temporal/surface_kind.h"
 #include "engine/temporal/temporal_mode.h"
 
 namespace weft {
@@ -132,8 +133,9 @@ struct RegionPlan {
     std::vector<PlaneAmendment> amendments;   ///< Of the grown plane.
     // Time.
     TemporalMode temporal = TemporalMode::kLocked;
-    float blend = 0.2f;   ///< α of the paper mode.
-    float weight = 1.0f;  ///< λ_t of the paper mode.
+    SurfaceKind surface = SurfaceKind::kFound;  ///< Where motion is estimated.
+    float blend = 0.2f;                         ///< α of the paper mode.
+    float weight = 1.0f;                        ///< λ_t of the paper mode.
     // Light.
     LightSource light_source = LightSource::kPlate;
     std::shared_ptr<const ImageF3> light_picture;  ///< Linear light; for kImage.

@@ -34,7 +34,8 @@ struct SurfaceJob {
     bool coords = false, shading = false, paper = false, grain = false, shutter = false;
 
     std::optional<SurfaceTrack> track;
-    std::optional<Hash128> walk;         // names all that led to the track, if walks are kept
+    bool bends = false;           // an earlier walk of the surface has refuted that it is a plane
+    std::optional<Hash128> walk;  // names all that led to the track, if walks are kept
     int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored
     std::set<int> held_frames;  // frames that repeat the drawing of the frame before in time
     std::optional<Shading> last_shading;

@@ -23,9 +23,10 @@ class Followed {
     Matte small_;
 };
 
-SurfaceWalkerOptions walker_options(Size followed, SurfaceTrack::Motion motion,
+SurfaceWalkerOptions walker_options(Size followed, SurfaceTrack::Motion motion, SurfaceKind kind,
                                     FlowQuality quality) {
     SurfaceWalkerOptions options;
+    options.kind = kind;
     options.quality = quality;
     options.exact_motion = motion == SurfaceTrack::Motion::kExact;
     options.spacing_px = std::max(options.exact_motion ? 4 : 8, followed.width / 160);
@@ -62,7 +63,7 @@ std::shared_ptr<const StepFrame> step_frame(const PlateViews& views, const Matte
 StepEvidence step_evidence(const StepFrame& prev, const StepFrame& cur,
                            const FlowField& prev_from_cur, FlowQuality quality) {
     const SurfaceWalkerOptions options =
-        walker_options(cur.size(), SurfaceTrack::Motion::kEstimated, quality);
+        walker_options(cur.size(), SurfaceTrack::Motion::kEstimated, SurfaceKind::kFound, quality);
     return gather_evidence(prev, cur, prev_from_cur, quality, options.spacing_px);
 }
 
@@ -75,17 +76,18 @@ WalkStep exact_step(const PlateViews& views, const Matte& visible, const FlowFie
 
 int SurfaceTrack::spacing_for(Size plate, Motion motion) {
     const Size followed = followed_size(plate, motion);
-    const int spacing = walker_options(followed, motion, FlowQuality::kFinal).spacing_px;
+    const int spacing =
+        walker_options(followed, motion, SurfaceKind::kFound, FlowQuality::kFinal).spacing_px;
     return (spacing * plate.width + followed.width / 2) / followed.width;
 }
 
 SurfaceTrack::SurfaceTrack(const PlateViews& views, const Matte& visible, const Matte& extent,
-                           Motion motion, FlowQuality quality, const LatticeField* base,
-                           std::shared_ptr<const StepFrame> start)
+                           Motion motion, SurfaceKind kind, FlowQuality quality,
+                           const LatticeField* base, std::shared_ptr<const StepFrame> start)
     : plate_(visible.size()),
       followed_(followed_size(plate_, motion)),
       spacing_px_(spacing_for(plate_, motion)),
-      walker_(walker_at(views, visible, extent, walker_options(followed_, motion, quality),
+      walker_(walker_at(views, visible, extent, walker_options(followed_, motion, kind, quality),
                         followed_, base, std::move(start))) {
     take_over();
 }

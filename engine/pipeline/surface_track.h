@@ -41,7 +41,7 @@ class SurfaceTrack {
     /// As SurfaceWalker's; `base` has the spacing that spacing_for() gives. `start`: the first
     /// frame as step_frame() made it, for estimated motion; else null.
     SurfaceTrack(const PlateViews& views, const Matte& visible, const Matte& extent, Motion motion,
-                 FlowQuality quality, const LatticeField* base,
+                 SurfaceKind kind, FlowQuality quality, const LatticeField* base,
                  std::shared_ptr<const StepFrame> start);
 
     void advance(const WalkStep& step);
@@ -53,6 +53,8 @@ class SurfaceTrack {
 
     [[nodiscard]] const LatticeField& ref_from_cur() const;
     [[nodiscard]] const LatticeField& prev_from_cur() const;
+    /// As SurfaceWalker's.
+    [[nodiscard]] bool is_plane() const { return walker_.is_plane(); }
     /// As SurfaceWalker's; fields are finer where there are any.
     [[nodiscard]] int part_count() const { return walker_.part_count(); }
     /// Null unless a seam hides that the texture returned to its shape.

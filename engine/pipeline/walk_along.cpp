@@ -13,7 +13,9 @@ enum class Did : std::uint8_t { kBegin, kStep, kStepHiding, kHold, kAnchor };
 
 class Name {
   public:
-    explicit Name(Did did) { hasher_.value(static_cast<std::uint8_t>(did)); }
+    explicit Name(Did did, SurfaceKind kind = SurfaceKind::kFound) {
+        hasher_.value(static_cast<std::uint8_t>(did)).value(static_cast<std::uint8_t>(kind));
+    }
     Name& add(const Hash128& hash) {
         hasher_.value(hash.high).value(hash.low);
         return *this;
@@ -28,18 +30,29 @@ class Name {
     Hasher hasher_;
 };
 
+// What an earlier walk of this surface has refuted is not believed again.
+SurfaceKind kind_of(SurfaceJob& job) {
+    // What lies around a zone is another surface.
+    const SurfaceKind said = job.layer == 0 ? job.plan->surface : SurfaceKind::kFound;
+    const bool open = said == SurfaceKind::kFound || said == SurfaceKind::kRigid;
+    job.bends = job.bends || (job.track && !job.track->is_plane());
+    if (!open || !job.bends) return said;
+    return said == SurfaceKind::kFound ? SurfaceKind::kBody : SurfaceKind::kCloth;
+}
+
 }  // namespace
 
 void begin_walk(SurfaceJob& job, const PlateViews& views, const SurfaceStop& stop,
                 FlowQuality quality, const LatticeField* base) {
+    const SurfaceKind kind = kind_of(job);
     job.walk.reset();
     if (stop.key) {
-        Name name(Did::kBegin);
+        Name name(Did::kBegin, kind);
         name.add(*stop.key);
         if (base) name.add(*base);
         job.walk = name.finish();
     }
-    job.track.emplace(views, stop.visible, stop.extent, motion_of(*job.plan), quality, base,
+    job.track.emplace(views, stop.visible, stop.extent, motion_of(*job.plan), kind, quality, base,
                       stop.step ? stop.step->frame : nullptr);
 }
 

@@ -30,9 +30,20 @@ struct Registered {
     [[nodiscard]] bool holds() const { return fit.residual < 0.45 && fit.share > 0.5; }
 };
 
+/// What is compared of an anchor and a frame: the colours, if both have any and `by_color`, else
+/// the lumas. Refers to both.
+struct RegisteredPictures {
+    const RegistrationPicture &there, &here;
+    ViewU8x1 luma;  ///< What `here` was made of.
+};
+[[nodiscard]] RegisteredPictures pictures_of(const Anchor& anchor, const StepFrame& cur,
+                                             bool by_color);
+/// How homographies are registered.
+[[nodiscard]] RegistrationOptions planar_options(FlowQuality quality);
+
 /// Registers a frame against an anchor from an initial field: by a smooth correction, or by a
-/// homography where that explains the frame as well. `by_color`: the colours, if both have any,
-/// else the lumas. Pure; deterministic.
+/// homography where that explains the frame as well. `by_color`: as in pictures_of(). Pure;
+/// deterministic.
 [[nodiscard]] Registered register_against(const Anchor& anchor, const StepFrame& cur, bool by_color,
                                           const LatticeField& initial, FlowQuality quality);
 

@@ -8,26 +8,14 @@
 namespace weft {
 namespace {
 
-// What two frames are compared by.
-struct Pictures {
-    const RegistrationPicture &there, &here;
-    ViewU8x1 luma;  // of the frame here
-};
-
-Pictures pictures_of(const Anchor& anchor, const StepFrame& cur, bool by_color) {
-    if (by_color && anchor.frame->has_color() && cur.has_color())
-        return {anchor.frame->color_picture(), cur.color_picture(), cur.color()};
-    return {anchor.frame->picture(), cur.picture(), cur.view().luma};
-}
-
 struct Candidate {
     Registered registered;
     double known_share = 0;
 };
 
 // Along stripes shades are found again wherever they have gone.
-Candidate search(const Anchor& anchor, const StepFrame& cur, const Pictures& seen, FoundBy by,
-                 const Registered& found, MissedBy missed, FlowQuality quality) {
+Candidate search(const Anchor& anchor, const StepFrame& cur, const RegisteredPictures& seen,
+                 FoundBy by, const Registered& found, MissedBy missed, FlowQuality quality) {
     const WideSearch wide =
         search_around({seen.there, anchor.frame->view().visible}, {seen.here, cur.view().visible},
                       seen.luma, found.anchor_from_cur, missed, quality);
@@ -82,7 +70,7 @@ std::optional<Registered> LostPlaces::find(const Anchor& anchor, const StepFrame
     const double noise = this->noise();
     const double little = found.planar ? kPlaneAlone : kLittle;
     if (found.fit.residual < little * noise || --waiting_ > 0) return std::nullopt;
-    const Pictures seen = pictures_of(anchor, cur, by.color);
+    const RegisteredPictures seen = pictures_of(anchor, cur, by.color);
     if (registration_agreement(seen.there, seen.here, found.anchor_from_cur) < kAnyStructure)
         return std::nullopt;
     std::optional<Registered> best;

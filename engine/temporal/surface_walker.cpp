@@ -5,11 +5,19 @@
 #include <optional>
 #include <utility>
 
+#include "engine/motion/flat_motion.h"
 #include "engine/temporal/stretch_limit.h"
 #include "engine/temporal/tiny_surface.h"
 #include "engine/temporal/walk_state.h"
 
 namespace weft {
+namespace {
+
+// The chain is steady but drifts; the registration does not drift but jitters. The gains are those
+// of stationary Kalman filters that combine them.
+constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
+
+}  // namespace
 
 // Switches to another anchor of an earlier generation if one explains the frame. Only generations
 // below `generation_below`; the share must exceed `share_above`.
@@ -20,7 +28,8 @@ bool SurfaceWalker::State::try_others(const StepFrame& cur, int generation_below
         if (k == anchors.present_index() || all[k].generation >= generation_below) continue;
         const Registered found = against(all[k], cur, prev_from_cur, predicted(all[k]));
         if (!found.holds() || found.fit.share < share_above) continue;
-        correct(k, found.anchor_from_cur);
+        correct(k, plane.believed() ? flattened(found.anchor_from_cur, cur.view().visible)
+                                    : found.anchor_from_cur);
         return true;
     }
     return false;
@@ -75,19 +84,36 @@ Registered SurfaceWalker::State::against_present(const StepFrame& cur) {
     return wider ? std::move(*wider) : std::move(found);
 }
 
+// Takes the frame as a plane's if the surface is one.
+std::optional<RegistrationFit> SurfaceWalker::State::lay_as_plane(const StepFrame& cur,
+                                                                  const Registered& found) {
+    if (!plane.believed()) return std::nullopt;
+    const ViewU8x1 visible = cur.view().visible;
+    const LatticeField expected = flattened(anchor_from_cur, visible);
+    const auto laid = plane.registered(anchors.present(), cur, choice.by_color(), expected, found,
+                                       options.quality);
+    if (!laid) return std::nullopt;
+    correct(anchors.present_index(),
+            flattened(mix(expected, laid->anchor_from_cur, kPlanarGain), visible));
+    prev_from_cur = flattened(prev_from_cur, visible);
+    return laid->fit;
+}
+
 void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>& cur) {
     const ViewU8x1 visible = cur->view().visible;
-    const Registered found = against_present(*cur);
-    // The chain is steady but drifts; the registration does not drift but jitters. The gains are
-    // those of stationary Kalman filters that combine them.
-    constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
-    correct(anchors.present_index(),
-            mix(anchor_from_cur, found.anchor_from_cur, found.planar ? kPlanarGain : kSmoothGain));
-    if (reanchor(visible) || limit_stretch(ref_from_cur, visible)) {
-        // The texture slid: older anchors would pull it back.
-        anchors.clear();
-        become_anchor(cur);
-        return;
+    Registered found = against_present(*cur);
+    if (const auto as_plane = lay_as_plane(*cur, found)) {
+        // A plane that turns away is foreshortened, not stretched.
+        found.fit = *as_plane;
+    } else {
+        correct(anchors.present_index(), mix(anchor_from_cur, found.anchor_from_cur,
+                                             found.planar ? kPlanarGain : kSmoothGain));
+        if (reanchor(visible) || limit_stretch(ref_from_cur, visible)) {
+            // The texture slid: older anchors would pull it back.
+            anchors.clear();
+            become_anchor(cur);
+            return;
+        }
     }
     constexpr double kEnough = 0.6;
     if (found.fit.share < kEnough) {
@@ -102,12 +128,27 @@ void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>
     }
 }
 
+bool SurfaceWalker::State::may_have_parts() const {
+    switch (options.kind) {
+        case SurfaceKind::kBody:
+            return true;
+        case SurfaceKind::kFound:
+            return !plane.is_settled();
+        case SurfaceKind::kPlane:
+        case SurfaceKind::kRigid:
+        case SurfaceKind::kCloth:
+            break;
+    }
+    return false;
+}
+
 // Takes the step if the surface has parts that move by themselves.
 bool SurfaceWalker::State::advance_parts(const SurfaceWalker& whole, const WalkStep& to) {
-    if (is_part || lost || !to.evidence.raw) return false;
+    if (is_part || lost || !to.evidence.raw || !may_have_parts()) return false;
     if (!parts.any()) {
         parts.look(whole, last, to, options);
         if (!parts.any()) return false;
+        plane.refute();
         stretched = {};
         hiding_left = 0;
     }
@@ -139,6 +180,7 @@ SurfaceWalker::SurfaceWalker(std::shared_ptr<const StepFrame> start,
     : state_(std::make_unique<State>()) {
     const LatticeField still(start->size(), options.spacing_px);
     state_->options = options;
+    state_->plane = RigidPlane(options.kind);
     state_->ref_from_cur = ref_from_start ? *ref_from_start : still;
     state_->last = std::move(start);
     state_->become_anchor(state_->last);
@@ -199,6 +241,12 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
     // A part that has just come into view has no motion yet, and says nothing for either choice.
     MotionChoice unchanged = s.choice;
     StepMotion step = choose_motion(to.evidence, was_hidden ? unchanged : s.choice);
+    if (step.by_outline) {
+        // What shows nothing but its outline may be any drawing; but a plane that was borne out
+        // keeps its picture, though it is faint for a moment.
+        if (!s.plane.is_settled()) s.plane.refute();
+        if (s.plane.believed()) step = {to.evidence.by_picture};
+    }
     s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
     if (step.by_outline) {
         s.register_drawing(cur);
@@ -232,6 +280,7 @@ void SurfaceWalker::advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField 
 void SurfaceWalker::become_part() {
     State& s = *state_;
     s.is_part = true;
+    s.plane.refute();
     s.largest_px = 0;
     s.steady_step = {};
     // No seam hides the change of a part's texture.
@@ -259,6 +308,10 @@ void SurfaceWalker::keep_on_anchors(ViewU8x1 own) {
         }
         return anchor.frame->part(kept, anchor.frame.get());
     });
+}
+
+bool SurfaceWalker::is_plane() const {
+    return state_->plane.believed();
 }
 
 int SurfaceWalker::part_count() const {

@@ -9,6 +9,7 @@
 #include "engine/motion/lattice_field.h"
 #include "engine/motion/optical_flow.h"
 #include "engine/temporal/step_motion.h"
+#include "engine/temporal/surface_kind.h"
 
 namespace weft {
 
@@ -16,6 +17,7 @@ struct SurfaceWalkerOptions {
     FlowQuality quality = FlowQuality::kFinal;
     bool exact_motion = false;  ///< The motion is exact: follow it closely and do not register.
     int spacing_px = 8;         ///< Of the lattices.
+    SurfaceKind kind = SurfaceKind::kFound;
 };
 
 /// A step of a walk as far as it does not depend on where the walk has led.
@@ -31,7 +33,8 @@ struct WalkStep {
 /// structure stands out of its noise and the outline bears it out better, the outline's
 /// (gather_evidence()). A chain drifts, so each frame is also registered against an *anchor*, at
 /// first the reference frame itself: by a homography where one explains the picture, else by a
-/// smooth field (register_planar(), register_lattice()). Where either is blurred by motion, both
+/// smooth field (register_planar(), register_lattice()). What looks like a rigid plane is followed
+/// as one until the clip refutes it (RigidPlane). Where either is blurred by motion, both
 /// are compared blurred alike (ExposureMatch); what a step has lost is searched again (LostPlaces).
 /// When too little of the anchor is visible, the current frame becomes the next anchor. A body
 /// with joints is divided into parts, each with a walk of its own (JointedParts); the fields then
@@ -83,6 +86,9 @@ class SurfaceWalker {
     /// What the earlier frames against which it registers show beside `own` is no longer of this
     /// surface. `own`: its part of the last frame, H×W, 255 or 0.
     void keep_on_anchors(ViewU8x1 own);
+    /// Whether the surface is taken for one rigid plane so far (RigidPlane): ref_from_cur() is a
+    /// homography where it is seen.
+    [[nodiscard]] bool is_plane() const;
     /// How many parts of the surface are followed by themselves (JointedParts); 0: it has none.
     [[nodiscard]] int part_count() const;
     /// Goes on to a frame that shows the same drawing as the frame before: nothing moves.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "engine/temporal/exposure_match.h"
 #include "engine/temporal/jointed_parts.h"
 #include "engine/temporal/lost_places.h"
+#include "engine/temporal/rigid_plane.h"
 #include "engine/temporal/step_motion.h"
 #include "engine/temporal/surface_walker.h"
 
@@ -33,6 +35,7 @@ struct SurfaceWalker::State {
     MotionChoice choice;
     ExposureMatch exposure;
     LostPlaces lost_places;
+    RigidPlane plane;
     int since_older_tried = 0;  // frames
 
     // Once any is found, they walk in place of the whole.
@@ -101,9 +104,12 @@ struct SurfaceWalker::State {
     [[nodiscard]] Registered against(const Anchor& anchor, const StepFrame& cur,
                                      const LatticeField& motion, const LatticeField& initial) const;
     [[nodiscard]] Registered against_present(const StepFrame& cur);
+    // Whether the surface may have parts that move by themselves, as far as it is known.
+    [[nodiscard]] bool may_have_parts() const;
     void find_late(const std::shared_ptr<const StepFrame>& cur);
     void wait_out_of_view();
     void search(const std::shared_ptr<const StepFrame>& cur, std::int64_t visible_px);
+    std::optional<RegistrationFit> lay_as_plane(const StepFrame& cur, const Registered& found);
     void register_frame(const std::shared_ptr<const StepFrame>& cur);
     void register_drawing(const StepFrame& cur);
     bool advance_parts(const SurfaceWalker& whole, const WalkStep& to);

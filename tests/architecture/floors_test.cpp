@@ -65,8 +65,8 @@ const std::vector<Floor> kFloors{
       "engine/lighting/light_source.h", "engine/lighting/shading.h", "engine/mask/matte_reach.h",
       "engine/mask/roto_shape.h", "engine/pipeline/layer_kind.h", "engine/pipeline/zone_kind.h",
       "engine/seam/seam.h", "engine/seam/seam_cost.h", "engine/synthesis/plane_amendment.h",
-      "engine/synthesis/plane_mode.h", "engine/temporal/temporal_mode.h",
-      "engine/media/image_files.h"}},
+      "engine/synthesis/plane_mode.h", "engine/temporal/surface_kind.h",
+      "engine/temporal/temporal_mode.h", "engine/media/image_files.h"}},
     {"app/project/codec", {"engine/core", "engine/media/atomic_file.h", "app/project"}},
     // 5: shared by the command line and the editor
     {"app/base", {"engine/core", "engine/color", "engine/media", "app/project"}},

@@ -76,7 +76,7 @@ const std::vector<SizeException> kLongFunctions{
       {"ui/light/inspector.cpp", "light_inspector", 80},
       {"ui/light/lamps.cpp", "lamps_controls", 70},
       {"ui/mask/inspector.cpp", "mask_inspector", 110},
-      {"ui/motion/inspector.cpp", "motion_inspector", 95},
+      {"ui/motion/inspector.cpp", "motion_inspector", 65},
       {"ui/shell/shell.cpp", "Shell::layout", 125},
       {"ui/shell/top_bar.cpp", "status_bar", 70},
       {"ui/shell/welcome.cpp", "welcome", 70},

@@ -116,6 +116,7 @@ TEST(Parameters, EveryFlagOfTheCommandLineIsInATable) {
                              "--temporal",
                              "--temporal-blend",
                              "--temporal-weight",
+                             "--surface",
                              "--light",
                              "--blend-mode",
                              "--light-strength",

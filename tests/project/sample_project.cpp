@@ -94,7 +94,7 @@ Region full_region() {
                 {}};
     r.synthesis = {
         SeamMethod::kDynamicProgramming, 24, 3, SeamCost::kPaper, 5, true, true, false, {}};
-    r.temporal = {TemporalMode::kPaper, 0.35, 2.5, {}};
+    r.temporal = {TemporalMode::kPaper, 0.35, 2.5, SurfaceKind::kPlane, {}};
     r.light.source = LightSource::kImage;
     r.light.image = "light.png";
     r.light.form = LightForm::kDetail;

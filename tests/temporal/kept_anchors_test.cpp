@@ -34,7 +34,8 @@ std::shared_ptr<const StepFrame> bent_frame(bool first) {
 // How far the middle of what was hidden is drawn aside on the next frame, which is followed
 // rightly.
 float drawn_aside(bool keep) {
-    const SurfaceWalkerOptions options;
+    SurfaceWalkerOptions options;
+    options.kind = SurfaceKind::kCloth;
     SurfaceWalker walker(bent_frame(true), options);
     if (keep) {
         Matte others(kBentFrame, 255);

@@ -266,7 +266,7 @@ TEST(SurfaceWalker, GoesOnWhenTheSurfaceComesIntoView) {
     EXPECT_LT(mean_error(walker.ref_from_cur(), shot, 1, 0), 0.2f);
 }
 
-// A plane that turns away until it is a third as wide: the texture is let go once, and what it was
+// What turns away until it is a third as wide, and is not said to be a plane: the texture is let go once, and what it was
 // is carried beside it, on the surface, for the seam to choose from.
 TEST(SurfaceWalker, ReleasesAStretchedTextureAndKeepsTrackingIt) {
     const WaveTexture plane(7);
@@ -280,7 +280,9 @@ TEST(SurfaceWalker, ReleasesAStretchedTextureAndKeepsTrackingIt) {
         return draw(kShotFrame,
                     [&](Vec2 p) { return std::abs(p.x - 128) < 120 * width_at(t) ? 1.0f : 0.0f; });
     };
-    SurfaceWalker walker(luma_at(0), visible_at(0), {});
+    SurfaceWalkerOptions options;
+    options.kind = SurfaceKind::kCloth;
+    SurfaceWalker walker(luma_at(0), visible_at(0), options);
     walker.hide_reanchoring(true);
     int let_go = 0, carried = 0;
     for (int t = 1; t <= 20; ++t) {

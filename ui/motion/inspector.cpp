@@ -23,6 +23,43 @@ void add_reference_frame(Ctx& c) {
     c.edit(SetRegionParameter{{region->id, {}}, "reference_frames", frames});
 }
 
+namespace {
+
+void motion_source_section(Ctx& c, const Region& region) {
+    if (!section(c, "Motion")) return;
+    const PanelName panel(c, "Motion");
+    if (!region.motion.track.empty()) {
+        info_row(c, "Follows", region.motion.track, "Planar track: the surface is treated as flat");
+        if (button(c, "Estimate motion", {.icon = icons::kRefresh, .width = -1}))
+            c.edit(SetRegionParameter{{region.id, {}}, "motion.track", std::string()});
+    } else if (region.motion.files.empty()) {
+        info_row(c, "From", "Estimated from the plate");
+        region_parameter(c, region, "temporal.surface", "Surface");
+        if (button(c, "Use planar track…",
+                   {.icon = icons::kCrosshairs,
+                    .tip = "Corner pins of Nuke, After Effects or Mocha: .nk, .txt, .json",
+                    .width = -1})) {
+            c.state.browser.purpose = BrowserState::Purpose::kTrack;
+            c.state.browser.just_opened = true;
+        }
+        if (button(c, "Use motion files…",
+                   {.icon = icons::kFolderImage,
+                    .tip = "Motion vectors from a renderer: .flo or KITTI 16-bit PNG",
+                    .width = -1})) {
+            c.state.browser.purpose = BrowserState::Purpose::kMotion;
+            c.state.browser.just_opened = true;
+        }
+    } else {
+        info_row(c, "Files", region.motion.files);
+        region_parameter(c, region, "motion.direction", "Direction");
+        if (button(c, "Estimate motion", {.icon = icons::kRefresh, .width = -1}))
+            c.edit(SetRegionParameter{{region.id, {}}, "motion.files", std::string()});
+    }
+    section_gap(c);
+}
+
+}  // namespace
+
 void motion_inspector(Ctx& c) {
     const Region* region = c.view.selected_region();
     if (!region) return no_region(c);
@@ -75,37 +112,7 @@ void motion_inspector(Ctx& c) {
     }
     hints_section(c, false);
     corrections_section(c, *region);
-    if (section(c, "Motion")) {
-        const PanelName panel(c, "Motion");
-        if (!region->motion.track.empty()) {
-            info_row(c, "Follows", region->motion.track,
-                     "Planar track: the surface is treated as flat");
-            if (button(c, "Estimate motion", {.icon = icons::kRefresh, .width = -1}))
-                c.edit(SetRegionParameter{{region->id, {}}, "motion.track", std::string()});
-        } else if (region->motion.files.empty()) {
-            info_row(c, "From", "Estimated from the plate");
-            if (button(c, "Use planar track…",
-                       {.icon = icons::kCrosshairs,
-                        .tip = "Corner pins of Nuke, After Effects or Mocha: .nk, .txt, .json",
-                        .width = -1})) {
-                c.state.browser.purpose = BrowserState::Purpose::kTrack;
-                c.state.browser.just_opened = true;
-            }
-            if (button(c, "Use motion files…",
-                       {.icon = icons::kFolderImage,
-                        .tip = "Motion vectors from a renderer: .flo or KITTI 16-bit PNG",
-                        .width = -1})) {
-                c.state.browser.purpose = BrowserState::Purpose::kMotion;
-                c.state.browser.just_opened = true;
-            }
-        } else {
-            info_row(c, "Files", region->motion.files);
-            region_parameter(c, *region, "motion.direction", "Direction");
-            if (button(c, "Estimate motion", {.icon = icons::kRefresh, .width = -1}))
-                c.edit(SetRegionParameter{{region->id, {}}, "motion.files", std::string()});
-        }
-        section_gap(c);
-    }
+    motion_source_section(c, *region);
     motion_zones_section(c, *region);
     if (section(c, "Overlays")) {
         const PanelName panel(c, "Overlays");
