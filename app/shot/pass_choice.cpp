@@ -140,8 +140,9 @@ class Chooser {
         const std::string what = albedo ? "albedo" : "lighting";
         return fail(ErrorCode::kUnreadable,
                     "The " + what + " pass " + *path +
-                        " is the plate's own picture, light and colour together. Give the " + what +
-                        " pass" + by({{albedo ? setting::kAlbedo : setting::kLighting}}) +
+                        " is the plate's own picture, light and colour together.",
+                    "Give the " + what + " pass" +
+                        by({{albedo ? setting::kAlbedo : setting::kLighting}}) +
                         ", or name its layer" + by({{setting::kLightLayer}}) + ".");
     }
 

@@ -275,8 +275,9 @@ Expected<CryptoObject> pick_cryptomatte(const std::string& path, int x, int y) {
         if (x < 0 || y < 0 || x >= size.width || y >= size.height) {
             return fail(ErrorCode::kUsage,
                         "The pixel " + std::to_string(x) + "," + std::to_string(y) +
-                            " is outside " + path + ". Give one inside its " +
-                            std::to_string(size.width) + " x " + std::to_string(size.height) + ".");
+                            " is outside " + path + ".",
+                        "Give one inside its " + std::to_string(size.width) + " x " +
+                            std::to_string(size.height) + ".");
         }
         CryptoObject best{layer.name, "", 0, 0};
         const std::size_t count = 2 * layer.ranks.size();

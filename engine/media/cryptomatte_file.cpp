@@ -136,8 +136,8 @@ std::size_t restore_rounded_ids(std::vector<float>& samples, const std::set<std:
 Expected<CryptoFile> CryptoFile::open(const std::string& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) {
-        return fail(ErrorCode::kMissingFrames,
-                    "File " + path + " not found. Supply it, or correct the name.");
+        return fail(ErrorCode::kMissingFrames, "File " + path + " not found.",
+                    "Supply it, or correct the name.");
     }
     CryptoFile file;
     file.path_ = path;

@@ -112,10 +112,10 @@ void MatteMovie::keep(Kept matte) const {
 
 Expected<Matte> MatteMovie::read(int index, const std::string& channel) const {
     if (index < 0 || index >= frame_count()) {
-        return fail(ErrorCode::kMissingFrames, "The matte " + path_ + " has " +
-                                                   std::to_string(frame_count()) +
-                                                   " frames, and none for this one. Give a movie "
-                                                   "that is as long as the plate.");
+        return fail(ErrorCode::kMissingFrames,
+                    "The matte " + path_ + " has " + std::to_string(frame_count()) +
+                        " frames, and none for this one.",
+                    "Give a movie that is as long as the plate.");
     }
     std::string from = channel;
     if (from.empty()) {

@@ -68,8 +68,9 @@ Expected<Groups> group_files(const std::string& folder) {
         group.fewest_digits = std::min(group.fewest_digits, parts.digits.size());
     }
     if (error) {
-        return fail(ErrorCode::kUnreadable, "The folder " + folder + " cannot be read: " +
-                                                error.message() + ". Check its permissions.");
+        return fail(ErrorCode::kUnreadable,
+                    "The folder " + folder + " cannot be read: " + error.message() + ".",
+                    "Check its permissions.");
     }
     return groups;
 }
@@ -112,15 +113,16 @@ Expected<SequencePattern> find_sequence(const std::string& folder) {
     if (real) std::erase_if(groups, [](const auto& group) { return group.second.files == 1; });
     if (groups.empty()) {
         return fail(ErrorCode::kMissingFrames,
-                    "The folder " + folder + " has no numbered pictures. Give a pattern such as " +
-                        folder + "/plate.####.exr, or another folder.");
+                    "The folder " + folder + " has no numbered pictures.",
+                    "Give a pattern such as " + folder + "/plate.####.exr, or another folder.");
     }
     if (groups.size() > 1) {
         std::string list;
         for (const auto& group : groups)
             list += (list.empty() ? "" : ", ") + pattern_text(group);
-        return fail(ErrorCode::kUsage, "The folder " + folder + " holds several sequences: " +
-                                           list + ". Name the one to use.");
+        return fail(ErrorCode::kUsage,
+                    "The folder " + folder + " holds several sequences: " + list + ".",
+                    "Name the one to use.");
     }
     const std::string slash = folder.ends_with('/') ? "" : "/";
     return SequencePattern::parse(folder + slash + pattern_text(*groups.begin()));

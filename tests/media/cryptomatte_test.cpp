@@ -80,9 +80,9 @@ TEST_F(CryptomatteTest, WhatIsNotThereIsSaid) {
     put("a.exr", kManifest);
     const auto none = check_cryptomatte_names({in("a.exr"), in("a.exr")}, "Wall,Door");
     ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("'Door'"));
-    EXPECT_THAT(none.error().message, HasSubstr("Ball, Wall"));
-    EXPECT_THAT(read_cryptomatte(in("a.exr"), "Wall", {5, 1}).error().message, HasSubstr("4x1"));
+    EXPECT_THAT(none.error().sentence(), HasSubstr("'Door'"));
+    EXPECT_THAT(none.error().sentence(), HasSubstr("Ball, Wall"));
+    EXPECT_THAT(read_cryptomatte(in("a.exr"), "Wall", {5, 1}).error().sentence(), HasSubstr("4x1"));
     EXPECT_EQ(list_cryptomatte(in("b.exr")).error().code, ErrorCode::kMissingFrames);
 }
 
@@ -133,7 +133,7 @@ TEST_F(CryptomatteTest, IdsThatHalfHasRoundedAreNamed) {
     const auto lost = read_cryptomatte(in("a.exr"), "Wall", {});
     ASSERT_FALSE(lost);
     EXPECT_EQ(lost.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(lost.error().message, HasSubstr("rounded"));
+    EXPECT_THAT(lost.error().sentence(), HasSubstr("rounded"));
 }
 
 // A File Output node names the Cryptomatte by its slot, and its channels in capital letters.
@@ -149,7 +149,7 @@ TEST_F(CryptomatteTest, CutNamesAreTheCauseOfLostChannels) {
         {layer + "00.", layer + "01.", layer + "02.", "V"});
     const auto lost = read_cryptomatte(in("a.exr"), "Wall", {});
     ASSERT_FALSE(lost);
-    EXPECT_THAT(lost.error().message, HasSubstr("64 characters"));
+    EXPECT_THAT(lost.error().sentence(), HasSubstr("64 characters"));
 }
 
 // Two renders of one scene list the same objects.
@@ -246,7 +246,7 @@ TEST_F(MotionPass, WhatIsNotThereIsListed) {
     put("a.exr", {"R", "G", "B"}, {0, 0, 0});
     const auto none = read_motion(in("a.exr"), {MotionConvention::kBlender, kForward, ""}, {8, 4});
     ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("R, G, B"));
+    EXPECT_THAT(none.error().sentence(), HasSubstr("R, G, B"));
     EXPECT_FALSE(read_motion(in("a.exr"), {MotionConvention::kFlame, kForward, ""}, {9, 4}));
 }
 

@@ -86,9 +86,9 @@ TEST_F(Exr, UnknownLayerListsThoseThereAre) {
         const auto frame = read_image(in("a.exr"), layer);
         ASSERT_FALSE(frame);
         EXPECT_EQ(frame.error().code, ErrorCode::kUnreadable);
-        EXPECT_THAT(frame.error().message, HasSubstr("sky.left, spec"));
+        EXPECT_THAT(frame.error().sentence(), HasSubstr("sky.left, spec"));
     }
-    EXPECT_THAT(read_image(in("a.exr"), "albedo").error().message, HasSubstr("'albedo'"));
+    EXPECT_THAT(read_image(in("a.exr"), "albedo").error().sentence(), HasSubstr("'albedo'"));
 }
 
 TEST_F(Exr, PartsAreLayersToo) {

@@ -89,7 +89,7 @@ TEST_F(MovieMatte, AChannelMayBeGivenAndTheMatteInverted) {
     const auto grey =
         files(movie("g.mkv", AV_PIX_FMT_GRAY8, {{{1}}})).read(0, {{}, "A"}, kMatteMovieSize);
     ASSERT_FALSE(grey);
-    EXPECT_THAT(grey.error().message, HasSubstr("no channel 'A'"));
+    EXPECT_THAT(grey.error().sentence(), HasSubstr("no channel 'A'"));
 }
 
 TEST_F(MovieMatte, WhatItCannotBeIsSaid) {
@@ -97,7 +97,7 @@ TEST_F(MovieMatte, WhatItCannotBeIsSaid) {
     const auto size = matte.read(0, {}, {640, 360});
     ASSERT_FALSE(size);
     EXPECT_EQ(size.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(size.error().message, HasSubstr("64x48"));
+    EXPECT_THAT(size.error().sentence(), HasSubstr("64x48"));
     MatteSelect objects;
     objects.crypto = "hero";
     EXPECT_EQ(matte.read(0, objects, kMatteMovieSize).error().code, ErrorCode::kUsage);

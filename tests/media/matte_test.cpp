@@ -69,7 +69,7 @@ TEST_F(MatteFile, WholeNumbersInFloatsAreIds) {
     const auto fractions = read_matte(in("ids.exr"), named, {2, 1});
     ASSERT_FALSE(fractions);
     EXPECT_EQ(fractions.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(fractions.error().message, HasSubstr("fractions"));
+    EXPECT_THAT(fractions.error().sentence(), HasSubstr("fractions"));
 }
 
 TEST_F(MatteFile, ChannelsAreChosen) {
@@ -95,7 +95,7 @@ TEST_F(MatteFile, NamedExrChannel) {
     const auto other = read_matte(in("a.exr"), channel("mask.dog"), {2, 1});
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(other.error().message, HasSubstr("mask.fox"));
+    EXPECT_THAT(other.error().sentence(), HasSubstr("mask.fox"));
 }
 
 TEST_F(MatteFile, MissingChannelIsUnreadable) {
@@ -159,7 +159,7 @@ TEST_F(MatteFile, AMovieIsNotCalledDamaged) {
     const auto movie = read_matte(in("m.mkv"), {}, {});
     ASSERT_FALSE(movie);
     EXPECT_EQ(movie.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(movie.error().message, HasSubstr("is a movie"));
+    EXPECT_THAT(movie.error().sentence(), HasSubstr("is a movie"));
 }
 
 TEST_F(MatteFile, WrongSizeGivesBothSizes) {
@@ -167,15 +167,15 @@ TEST_F(MatteFile, WrongSizeGivesBothSizes) {
     const auto matte = read_matte(in("a.png"), {}, {640, 360});
     ASSERT_FALSE(matte);
     EXPECT_EQ(matte.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(matte.error().message, HasSubstr("4x1"));
-    EXPECT_THAT(matte.error().message, HasSubstr("640x360"));
+    EXPECT_THAT(matte.error().sentence(), HasSubstr("4x1"));
+    EXPECT_THAT(matte.error().sentence(), HasSubstr("640x360"));
 }
 
 TEST_F(MatteFile, AbsentFileIsMissing) {
     const auto matte = read_matte(in("none.png"), {}, {4, 1});
     ASSERT_FALSE(matte);
     EXPECT_EQ(matte.error().code, ErrorCode::kMissingFrames);
-    EXPECT_THAT(matte.error().message, HasSubstr("none.png"));
+    EXPECT_THAT(matte.error().sentence(), HasSubstr("none.png"));
 }
 
 TEST_F(MatteFile, WrittenMatteComesBack) {

@@ -74,7 +74,7 @@ class PassLayers : public MediaTest {
     std::string refusal(const std::string& name, const MotionSelect& select) {
         const auto flow = read_motion(in(name), select, kPassSize);
         EXPECT_FALSE(flow);
-        return flow ? "" : flow.error().message;
+        return flow ? "" : flow.error().sentence();
     }
 };
 
@@ -93,7 +93,7 @@ TEST_F(PassLayers, APartsNameIsTheLayerOfItsPlainChannels) {
     EXPECT_EQ(read_uv(in("parts.exr"), "UV", kPassSize).value().at(1, 1, 1), 0.5f);
     const auto missing = read_uv(in("parts.exr"), "beauty", kPassSize);
     EXPECT_TRUE(missing) << "any layer with two channels, if it is named";
-    EXPECT_THAT(read_normals(in("parts.exr"), "", kPassSize).error().message,
+    EXPECT_THAT(read_normals(in("parts.exr"), "", kPassSize).error().sentence(),
                 HasSubstr("Vector: X, Y, Z, W"));
 }
 
@@ -103,7 +103,8 @@ TEST_F(PassLayers, UnnamedChannelsCountWhereNoOtherLayerCanBeMeant) {
     // A picture beside other layers is no motion and no texture coordinates.
     put("picture.exr", {{"", {"R", "G", "B", "N.X", "N.Y", "N.Z"}, {3, 1, 0, 0, 0, 1}}});
     refusal("picture.exr", {MotionConvention::kArnold, kForward});
-    EXPECT_THAT(read_uv(in("picture.exr"), "", kPassSize).error().message, HasSubstr("no UV pass"));
+    EXPECT_THAT(read_uv(in("picture.exr"), "", kPassSize).error().sentence(),
+                HasSubstr("no UV pass"));
     put("weft.exr",
         {{"", {"R", "G", "B", "A", "stabilize.R", "stabilize.G"}, {.5f, .25f, 1, 1, 0, 0}}});
     EXPECT_EQ(read_uv(in("weft.exr"), "", kPassSize).value().at(0, 0, 1), 0.25f);
@@ -273,7 +274,7 @@ TEST_F(LightPasses, ThePictureIsNoneOfThem) {
     for (const LightPass pass : {LightPass::kAlbedo, LightPass::kLighting}) {
         const auto none = read_light_pass(in("plain.exr"), pass, "");
         ASSERT_FALSE(none);
-        EXPECT_THAT(none.error().message, HasSubstr("N: X, Y, Z"));
+        EXPECT_THAT(none.error().sentence(), HasSubstr("N: X, Y, Z"));
     }
     EXPECT_EQ(red("plain.exr", LightPass::kAlbedo, "rgba"), 9) << "if it is asked for";
     put("own.exr", {{"", {"R", "G", "B"}, {.5f, 0, 0}}});

@@ -43,8 +43,8 @@ TEST_F(Plate, AbsentFrameIsMissingAndNamed) {
     const auto plate = opened(in("p.####.png"));
     for (const auto& error : {plate->read(1043).error(), plate->stamp(1043).error()}) {
         EXPECT_EQ(error.code, ErrorCode::kMissingFrames);
-        EXPECT_THAT(error.message, HasSubstr("Frame 1043 is missing in"));
-        EXPECT_THAT(error.message, HasSubstr("p.1043.png"));
+        EXPECT_THAT(error.sentence(), HasSubstr("Frame 1043 is missing in"));
+        EXPECT_THAT(error.sentence(), HasSubstr("p.1043.png"));
     }
     std::filesystem::remove(in("p.1044.png"));
     EXPECT_EQ(plate->read(1044).error().code, ErrorCode::kMissingFrames);
@@ -64,9 +64,9 @@ TEST_F(Plate, OtherSizeIsUnreadableWithBothSizes) {
     const auto frame = opened(in("p.#.png"))->read(2);
     ASSERT_FALSE(frame);
     EXPECT_EQ(frame.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(frame.error().message, HasSubstr("p.2.png"));
-    EXPECT_THAT(frame.error().message, HasSubstr("40x31"));
-    EXPECT_THAT(frame.error().message, HasSubstr("40x30"));
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("p.2.png"));
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("40x31"));
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("40x30"));
 }
 
 TEST_F(Plate, FolderWithOneSequenceIsThatSequence) {
@@ -92,8 +92,8 @@ TEST_F(Plate, FolderWithSeveralSequencesListsThem) {
     const auto plate = open_plate(folder_.string(), {});
     ASSERT_FALSE(plate);
     EXPECT_EQ(plate.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(plate.error().message, HasSubstr("a.##.png"));
-    EXPECT_THAT(plate.error().message, HasSubstr("b.##.png"));
+    EXPECT_THAT(plate.error().sentence(), HasSubstr("a.##.png"));
+    EXPECT_THAT(plate.error().sentence(), HasSubstr("b.##.png"));
     std::filesystem::create_directory(in("empty"));
     EXPECT_EQ(open_plate(in("empty"), {}).error().code, ErrorCode::kMissingFrames);
 }
