@@ -58,9 +58,10 @@ const char* kind_name(AnalysisKind kind) {
             return "coords";
         case AnalysisKind::kCoordsOneWay:
             return "coords-one-way";
-        case AnalysisKind::kHistoryBefore:
+        // As the files have always been called, so that kept analyses stay whole.
+        case AnalysisKind::kTrackBefore:
             return "history-before";
-        case AnalysisKind::kHistoryAfter:
+        case AnalysisKind::kTrackAfter:
             return "history-after";
         case AnalysisKind::kHeldBetween:
             return "held-between";
