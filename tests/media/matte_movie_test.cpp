@@ -131,5 +131,28 @@ TEST_F(MovieMatte, PicturesAreReadAsBefore) {
     EXPECT_EQ(one.read(55, {}, {4, 1}).value(), Matte(4, 1, 77));
 }
 
+// FFmpeg's own decoders of VP8 and VP9 leave the alpha out.
+TEST_F(MovieMatte, TheAlphaOfWebmIsRead) {
+    if (!has_encoder("libvpx-vp9")) GTEST_SKIP() << "FFmpeg has no encoder for VP9 here";
+    CodedMovie out;
+    out.format = AV_PIX_FMT_YUVA420P;
+    out.size = kMatteMovieSize;
+    out.stamps = {0, 1};
+    out.encoder = "libvpx-vp9";
+    const std::vector<Codes> bars{{200, 90, 200, 0}, {60, 128, 128, 255}};
+    write_frames(in("m.webm"), out, {bars, bars});
+    const MatteFiles matte = files(in("m.webm"));
+    EXPECT_LT(left(matte.read(0, {}, kMatteMovieSize)), 3);
+    EXPECT_GT(right(matte.read(0, {}, kMatteMovieSize)), 252);
+}
+
+TEST_F(MovieMatte, ColoursAreNotCoverage) {
+    const auto colours =
+        MatteMovie::open(movie("c.mkv", AV_PIX_FMT_YUV444P, {{{81, 90, 240}, {145, 54, 34}}}));
+    EXPECT_THAT(colours.value()->judge().error().sentence(), HasSubstr("has colours"));
+    const auto grey = MatteMovie::open(movie("g.mkv", AV_PIX_FMT_GRAY8, {{{0}, {255}}}));
+    EXPECT_EQ(grey.value()->judge().value(), "");
+}
+
 }  // namespace
 }  // namespace weft
