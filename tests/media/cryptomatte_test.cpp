@@ -259,5 +259,44 @@ TEST_F(MotionPass, UvPassesHaveUAndVOrRAndG) {
     EXPECT_FALSE(read_uv(in("uv.exr"), "", {8, 5}));
 }
 
+// Houdini's and USD's names are paths.
+TEST_F(CryptomatteTest, ANameMayBeginWithASlash) {
+    put("a.exr", R"({"/obj/Wall":"2c388f97","Ball":"74d3ebe9"})");
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "/obj/Wall", {}).value().at(0, 0), 255);
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "obj//obj/Wall", {}).value().at(0, 0), 255);
+    EXPECT_TRUE(check_cryptomatte_names({in("a.exr")}, "/obj/Wall"));
+}
+
+TEST_F(CryptomatteTest, AFilteredOneIsRefused) {
+    OIIO::ImageSpec spec(4, 4, 5, OIIO::TypeFloat);
+    spec.channelnames = {"R", "obj00.r", "obj00.g", "obj00.b", "obj00.a"};
+    spec.attribute("cryptomatte/1234567/name", "obj");
+    spec.attribute("cryptomatte/1234567/manifest", kManifest);
+    const auto put_ids = [&](const char* name, std::uint32_t beside) {
+        std::vector<float> data;
+        for (int i = 0; i < 16; ++i)
+            data.insert(
+                data.end(),
+                {0, std::bit_cast<float>(cryptomatte_id("Wall") + (i > 5 ? beside : 0)), 1, 0, 0});
+        auto output = OIIO::ImageOutput::create(in(name));
+        ASSERT_TRUE(output->open(in(name), spec));
+        ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+        ASSERT_TRUE(output->close());
+    };
+    put_ids("whole.exr", 0);
+    EXPECT_TRUE(read_cryptomatte(in("whole.exr"), "Wall", {}));
+    put_ids("scaled.exr", 3);
+    EXPECT_THAT(read_cryptomatte(in("scaled.exr"), "Wall", {}).error().sentence(),
+                HasSubstr("scaled, turned or blurred"));
+    put_ids("others.exr", 4000);
+    EXPECT_TRUE(read_cryptomatte(in("others.exr"), "Wall", {})) << "an object without a name";
+}
+
+TEST_F(CryptomatteTest, WithoutAManifestNoNamesAreListed) {
+    put("a.exr", "");
+    EXPECT_THAT(check_cryptomatte_names({in("a.exr")}, "Bal").error().sentence(),
+                HasSubstr("lists no names"));
+}
+
 }  // namespace
 }  // namespace weft
