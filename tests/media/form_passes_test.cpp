@@ -141,5 +141,18 @@ TEST_F(FormPasses, TheHeaderHasTheCamerasAxes) {
     EXPECT_FALSE(camera_with({}).camera_from_world);
 }
 
+// As V-Ray and Redshift can write them.
+TEST_F(FormPasses, NormalsInFloatsMayBeCodes) {
+    const auto at = [&](const char* file) { return read_normals(in(file), "", {8, 4}).value(); };
+    put("codes.exr", {"N.X", "N.Y", "N.Z"}, {0.8f, 0.5f, 0.9f});
+    EXPECT_NEAR(at("codes.exr").at(1, 1, 0), 0.6f, 1e-6);
+    EXPECT_NEAR(at("codes.exr").at(1, 1, 1), 0, 1e-6);
+    EXPECT_NEAR(at("codes.exr").at(1, 1, 2), 0.8f, 1e-6);
+    put("vectors.exr", {"N.X", "N.Y", "N.Z"}, {0.6f, 0, 0.8f});
+    EXPECT_EQ(at("vectors.exr").at(1, 1, 2), 0.8f);
+    put("short.exr", {"N.X", "N.Y", "N.Z"}, {0.5f, -1, 0});
+    EXPECT_EQ(at("short.exr").at(1, 1, 1), -1) << "vectors of any length";
+}
+
 }  // namespace
 }  // namespace weft

@@ -283,5 +283,36 @@ TEST_F(LightPasses, ThePictureIsNoneOfThem) {
     EXPECT_EQ(red("own.png", LightPass::kAlbedo), 1);
 }
 
+// Nuke's Write node.
+TEST_F(PassLayers, ChannelsMayBeWrittenOut) {
+    put("nuke.exr", {{"",
+                      {"R", "G", "B", "N.red", "N.green", "N.blue", "albedo.red", "albedo.green",
+                       "albedo.blue"},
+                      {9, 9, 9, 0, 0.6f, 0.8f, 1, 2, 3}}});
+    EXPECT_EQ(read_normals(in("nuke.exr"), "", kPassSize).value().at(1, 1, 2), 0.8f);
+    EXPECT_EQ(find_light_layer(in("nuke.exr"), LightPass::kAlbedo, {}).value(), "albedo");
+}
+
+TEST_F(PassLayers, TextureCoordinatesThatCountPixelsAreRefused) {
+    OIIO::ImageSpec spec(kPassSize.width, kPassSize.height, 2, OIIO::TypeFloat);
+    spec.channelnames = {"UV.U", "UV.V"};
+    const auto put_map = [&](const char* name, float scale) {
+        std::vector<float> data;
+        for (int y = 0; y < kPassSize.height; ++y)
+            for (int x = 0; x < kPassSize.width; ++x)
+                data.insert(data.end(),
+                            {scale * static_cast<float>(x), scale * static_cast<float>(y)});
+        auto output = OIIO::ImageOutput::create(in(name));
+        ASSERT_TRUE(output->open(in(name), spec));
+        ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+        ASSERT_TRUE(output->close());
+    };
+    put_map("pixels.exr", 1);
+    EXPECT_THAT(read_uv(in("pixels.exr"), "", kPassSize).error().sentence(),
+                HasSubstr("half a texture"));
+    put_map("shares.exr", 0.25f);
+    EXPECT_EQ(read_uv(in("shares.exr"), "", kPassSize).value().at(3, 1, 0), 0.75f);
+}
+
 }  // namespace
 }  // namespace weft
