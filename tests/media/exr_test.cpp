@@ -153,5 +153,20 @@ TEST_F(Exr, RateAndDepthComeFromTheHeader) {
     EXPECT_EQ(plate->depth(), PixelDepth::kHalf);
 }
 
+TEST_F(Exr, LuminanceWithChromaIsNotGrey) {
+    put_layers(in("yc.exr"), {"Y", "RY", "BY"});
+    const auto frame = read_image(in("yc.exr"));
+    ASSERT_FALSE(frame);
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("chroma"));
+    put_layers(in("y.exr"), {"Y"});
+    EXPECT_EQ(read_image(in("y.exr")).value().rgb, constant(0.5f, 0.5f, 0.5f));
+}
+
+// Karma and Mantra.
+TEST_F(Exr, TheLayerCIsThePicture) {
+    put_layers(in("c.exr"), {"C.r", "C.g", "C.b", "C.a", "depth.Z"});
+    EXPECT_EQ(read_image(in("c.exr")).value().rgb, constant(0.5f, 1.5f, 2.5f));
+}
+
 }  // namespace
 }  // namespace weft

@@ -1,5 +1,6 @@
 // Opening plates: patterns, folders, single pictures, and what is wrong with them.
 
+#include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 
 #include <thread>
@@ -96,6 +97,36 @@ TEST_F(Plate, FolderWithSeveralSequencesListsThem) {
     EXPECT_THAT(plate.error().sentence(), HasSubstr("b.##.png"));
     std::filesystem::create_directory(in("empty"));
     EXPECT_EQ(open_plate(in("empty"), {}).error().code, ErrorCode::kMissingFrames);
+}
+
+TEST_F(Plate, TheFrameNumberOfAFolderNeedNotBeTheLast) {
+    for (const char* name : {"sh010_v002_0001_4k.png", "sh010_v002_0002_4k.png"})
+        put_frame(in(name), picture({8, 8}, 0));
+    EXPECT_THAT(opened(folder_.string())->frames(), ElementsAre(1, 2));
+}
+
+// Krita and GIMP save layers as pages; the first is the background.
+TEST_F(Plate, TiffWithPagesOfOneSizeIsRefused) {
+    const auto put_pages = [&](const std::string& path, int other_width) {
+        auto output = OIIO::ImageOutput::create(path);
+        const std::vector<unsigned char> pixels(16 * 8 * 3, 99);
+        for (const int width : {16, other_width}) {
+            const OIIO::ImageSpec spec(width, 8, 3, OIIO::TypeUInt8);
+            ASSERT_TRUE(output->open(path, spec,
+                                     width == 16 && output->spec().width == 0
+                                         ? OIIO::ImageOutput::Create
+                                         : OIIO::ImageOutput::AppendSubimage));
+            ASSERT_TRUE(output->write_image(OIIO::TypeUInt8, pixels.data()));
+        }
+        ASSERT_TRUE(output->close());
+    };
+    put_pages(in("layers.tif"), 16);
+    const auto layers = open_plate(in("layers.tif"), {});
+    ASSERT_FALSE(layers);
+    EXPECT_EQ(layers.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(layers.error().sentence(), HasSubstr("pages or layers"));
+    put_pages(in("preview.tif"), 4);
+    EXPECT_EQ(opened(in("preview.tif"))->size(), (Size{16, 8}));
 }
 
 TEST_F(Plate, SinglePictureIsAPlateOfOneFrame) {
