@@ -374,7 +374,7 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
         if (!untracked.empty()) {
             return fail(ErrorCode::kMissingFrames,
                         "The track " + region.motion.track + " has nothing for " +
-                            frames_text(untracked) + ".",
+                            frames_text(untracked) + "; it has " + frames_text(tracked) + ".",
                         "Track the whole shot, or render only the frames that it has" +
                             by({{setting::kFrames}}) + ".");
         }
