@@ -78,6 +78,13 @@ class Chooser {
         if (!layer.empty()) return {};
         layer = found.layer.name;
         if (!found.also_called.empty()) tell_choice(what, files, found, setting);
+        if (is_of_another_view(found.layer, plate_.layer)) {
+            choice.warnings.push_back("Region '" + region_.name + "': the " + what + " " + *path +
+                                      " has the view '" + found.layer.view +
+                                      "' only, and the plate is of another. Name its layer if it "
+                                      "is meant" +
+                                      by({{setting}}) + ".");
+        }
         return {};
     }
 

@@ -100,6 +100,17 @@ TEST_F(PassChoosing, TheViewOfThePlateIsTaken) {
     EXPECT_THAT(choose().warnings, ElementsAre(HasSubstr("first view")));
 }
 
+TEST_F(PassChoosing, APassThatOnlyTheOtherViewHasIsNamed) {
+    put("0001.exr",
+        {"left.R", "left.G", "left.B", "right.R", "right.G", "right.B", "right.Depth.Z"});
+    plate_.path = region_.finish.depth = in("####.exr");
+    region_.finish.focus = 1;
+    EXPECT_THAT(choose().warnings, ElementsAre(HasSubstr("has the view 'right' only")));
+    region_.finish.depth_layer.clear();
+    plate_.layer = "right";
+    EXPECT_THAT(choose().warnings, IsEmpty());
+}
+
 TEST_F(PassChoosing, ThePlateIsNotItsOwnAlbedo) {
     put("0001.exr", {"R", "G", "B"});
     plate_.path = region_.light.albedo = in("####.exr");
