@@ -154,13 +154,6 @@ bool is_called(const PassLayer& layer, std::string_view wanted) {
            (before == 0 || name[before - 1] == '.');
 }
 
-bool is_of_another_view(const PassLayer& layer, const std::string& plate) {
-    if (layer.view.empty()) return false;
-    std::string view = split_view(plate, {layer.view}).view;
-    if (view.empty()) view = split_view(plate, {}).view;
-    return view.empty() ? !layer.first_view : !same_ignoring_case(view, layer.view);
-}
-
 const PassLayer* layer_named(const std::vector<PassLayer>& layers, std::string_view name) {
     const auto find = [&](auto&& matches) -> const PassLayer* {
         const auto at = std::find_if(layers.begin(), layers.end(), matches);

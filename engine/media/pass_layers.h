@@ -77,10 +77,6 @@ struct FoundPass {
 /// Is the layer's last name, but for a view, `wanted`, small and capital letters alike?
 [[nodiscard]] bool is_called(const PassLayer& layer, std::string_view wanted);
 
-/// Is the layer of another view than the plate's layer `plate`, which without a view in its name is
-/// of the first one?
-[[nodiscard]] bool is_of_another_view(const PassLayer& layer, const std::string& plate);
-
 /// The samples of the pass' channels, each row by row at the display window. Errors: those of
 /// reading; Unreadable if it is not half or float, or not of the size `expected` (empty: any).
 [[nodiscard]] Expected<std::vector<std::vector<float>>> read_pass(const std::string& path,
