@@ -28,9 +28,10 @@ Expected<int> edit(const EditArguments& given) {
     if (std::sscanf(given.size.c_str(), "%dx%d", &options.width, &options.height) != 2 ||
         options.width < kLeast || options.height < kLeast || options.width > kMost ||
         options.height > kMost) {
-        return fail(ErrorCode::kUsage,
-                    "--size must be a width and a height of 320 to 16384 px, not '" + given.size +
-                        "'. Write it like 1600x900.");
+        return fail(
+            ErrorCode::kUsage,
+            "--size must be a width and a height of 320 to 16384 px, not '" + given.size + "'.",
+            "Write it like 1600x900.");
     }
     return run_editor(options);
 }

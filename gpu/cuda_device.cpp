@@ -16,12 +16,12 @@ Error error_of(cudaError_t code, const std::string& doing) {
     if (code == cudaErrorMemoryAllocation) {
         (void)cudaGetLastError();  // This one is not the end of the device.
         return {ErrorCode::kNoSpace,
-                "The GPU has too little free memory: " + why +
-                    " Close other programs that use it, or use the CPU" +
+                "The GPU has too little free memory: " + why,
+                "Close other programs that use it, or use the CPU" +
                     by({{setting::kBackend, "cpu"}}) + ".",
                 {}};
     }
-    return {ErrorCode::kNoBackend, "The GPU is no longer available: " + why, {}};
+    return {ErrorCode::kNoBackend, "The GPU is no longer available: " + why, {}, {}};
 }
 
 Status status_of(cudaError_t code, const char* doing) {

@@ -85,8 +85,9 @@ Expected<std::vector<FolderEntry>> list_folder(const std::string& folder) {
     if (error) {
         if (error == std::errc::no_such_file_or_directory)
             return fail(ErrorCode::kUnreadable, "There is no folder " + folder + ".");
-        return fail(ErrorCode::kUnreadable, "The folder " + folder + " cannot be read: " +
-                                                error.message() + ". Check its permissions.");
+        return fail(ErrorCode::kUnreadable,
+                    "The folder " + folder + " cannot be read: " + error.message() + ".",
+                    "Check its permissions.");
     }
     for (const auto& [pattern, run] : runs) {
         FolderEntry entry;

@@ -14,7 +14,7 @@ std::string without_slash(std::string path) {
 Expected<RootMap> parse_root_map(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-        return fail(ErrorCode::kUsage, "'" + text + "' maps no root. Write it like FROM=TO.");
+        return fail(ErrorCode::kUsage, "'" + text + "' maps no root.", "Write it like FROM=TO.");
     }
     return RootMap{without_slash(text.substr(0, equals)), without_slash(text.substr(equals + 1))};
 }

@@ -78,8 +78,8 @@ bool TrustList::trusts(const std::string& project_file) const {
 Expected<std::string> TrustList::add(const std::string& folder, bool below) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) {
-        return fail(ErrorCode::kUnreadable,
-                    "Folder " + folder + " not found. Give the project's folder.");
+        return fail(ErrorCode::kUnreadable, "Folder " + folder + " not found.",
+                    "Give the project's folder.");
     }
     const std::string real = real_folder(folder);
     std::vector<TrustedFolder> all = folders();
@@ -99,18 +99,16 @@ Status TrustList::remove(const std::string& folder) {
     const std::string real = real_folder(folder);
     std::vector<TrustedFolder> all = folders();
     if (std::erase_if(all, [&](const TrustedFolder& f) { return f.path == real; }) == 0) {
-        return fail(ErrorCode::kUsage,
-                    real + " is not in the list of trusted folders. Choose one from the list" +
-                        by({{setting::kListTrusted}}) + ".");
+        return fail(ErrorCode::kUsage, real + " is not in the list of trusted folders.",
+                    "Choose one from the list" + by({{setting::kListTrusted}}) + ".");
     }
     return write(all);
 }
 
 Status TrustList::write(const std::vector<TrustedFolder>& folders) const {
     if (file_.empty()) {
-        return fail(ErrorCode::kUnreadable,
-                    "No folder for the list of trusted folders was found. Set HOME or "
-                    "XDG_CONFIG_HOME, or trust the project for one run" +
+        return fail(ErrorCode::kUnreadable, "No folder for the list of trusted folders was found.",
+                    "Set HOME or XDG_CONFIG_HOME, or trust the project for one run" +
                         by({{setting::kTrustOnce}}) + ".");
     }
     Json list = Json::array();
@@ -120,10 +118,9 @@ Status TrustList::write(const std::vector<TrustedFolder>& folders) const {
     try {
         text = Json{{"schema", kSchema}, {"folders", list}}.dump(2) + "\n";
     } catch (const Json::exception&) {
-        return fail(ErrorCode::kUsage,
-                    "The folder's name is not UTF-8 and cannot be stored. Rename it, or trust the "
-                    "project for one run" +
-                        by({{setting::kTrustOnce}}) + ".");
+        return fail(
+            ErrorCode::kUsage, "The folder's name is not UTF-8 and cannot be stored.",
+            "Rename it, or trust the project for one run" + by({{setting::kTrustOnce}}) + ".");
     }
     WEFT_CHECK_OK(make_folder_of(file_, WriteRule::own()));
     return write_file_atomically(file_, text, WriteRule::own());
@@ -150,8 +147,8 @@ Status check_trust(const Project& project, const std::string& project_file,
     if (outside.empty() || trusted.trusts(project_file)) return {};
     return fail(ErrorCode::kRefused,
                 project_file + " writes to " + outside.front() +
-                    ", outside its folder, and is not trusted. Trust its folder once" +
-                    by({{setting::kTrustFolder, folder_of(project_file)}}) +
+                    ", outside its folder, and is not trusted.",
+                "Trust its folder once" + by({{setting::kTrustFolder, folder_of(project_file)}}) +
                     ", or allow the output folder for this run" +
                     by({{setting::kOutputRoot, folder_of(outside.front())}}) + ".");
 }

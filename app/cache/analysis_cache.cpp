@@ -29,10 +29,10 @@ Status make_folders(const fs::path& root, const std::set<std::string>& names) {
         const fs::path folder = root / name;
         fs::create_directories(folder, error);
         if (error) {
-            return fail(ErrorCode::kNoSpace, "The folder " + folder.string() +
-                                                 " cannot be created: " + error.message() +
-                                                 ". Free disk space, or choose another folder" +
-                                                 by({{setting::kCache}}) + ".");
+            return fail(
+                ErrorCode::kNoSpace,
+                "The folder " + folder.string() + " cannot be created: " + error.message() + ".",
+                "Free disk space, or choose another folder" + by({{setting::kCache}}) + ".");
         }
         fs::last_write_time(folder, fs::file_time_type::clock::now(), error);
         remove_stale_temporaries((folder / "blob").string());
@@ -58,9 +58,10 @@ const char* kind_name(AnalysisKind kind) {
             return "coords";
         case AnalysisKind::kCoordsOneWay:
             return "coords-one-way";
-        case AnalysisKind::kHistoryBefore:
+        // As the files have always been called, so that kept analyses stay whole.
+        case AnalysisKind::kTrackBefore:
             return "history-before";
-        case AnalysisKind::kHistoryAfter:
+        case AnalysisKind::kTrackAfter:
             return "history-after";
         case AnalysisKind::kHeldBetween:
             return "held-between";
@@ -117,9 +118,8 @@ class DiskStore final : public AnalysisCache {
             overflow && write_blob((*overflow / overflow_name(key)).string(), bytes))
             return {};
         return fail(ErrorCode::kNoSpace,
-                    "The analysis cache " + path.parent_path().string() +
-                        " cannot be written. Free disk space, or choose another folder" +
-                        by({{setting::kCache}}) + ".");
+                    "The analysis cache " + path.parent_path().string() + " cannot be written.",
+                    "Free disk space, or choose another folder" + by({{setting::kCache}}) + ".");
     }
 
     [[nodiscard]] Expected<Bytes> get(const AnalysisKey& key) const override {
@@ -216,9 +216,10 @@ class DiskStore final : public AnalysisCache {
         return root_ / keys_[static_cast<std::size_t>(key.region)].of(key) / blob_name(key);
     }
     static tl::unexpected<Error> missing(const AnalysisKey& key) {
-        return fail(ErrorCode::kRenderFailed, "The cached analysis of frame " +
-                                                  std::to_string(key.frame) +
-                                                  " is missing or damaged. Render again.");
+        return fail(
+            ErrorCode::kRenderFailed,
+            "The cached analysis of frame " + std::to_string(key.frame) + " is missing or damaged.",
+            "Render again.");
     }
 
     const fs::path root_;
@@ -296,9 +297,9 @@ Expected<std::shared_ptr<AnalysisCache>> open_analysis_cache(const Shot& shot,
     if (keep && !root.empty()) root /= "analysis";
     if (keep && (root.empty() || !writable(root))) {
         if (!options.folder.empty()) {
-            return fail(ErrorCode::kUnreadable, "The cache folder " + options.folder +
-                                                    " cannot be written. Choose another" +
-                                                    by({{setting::kCache}}) + ".");
+            return fail(ErrorCode::kUnreadable,
+                        "The cache folder " + options.folder + " cannot be written.",
+                        "Choose another" + by({{setting::kCache}}) + ".");
         }
         warnings.push_back("The cache folder cannot be written; this analysis will not be kept.");
         keep = false;

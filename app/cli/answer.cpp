@@ -60,13 +60,6 @@ std::string field_of(const Error& error) {
     return {};
 }
 
-// A message says what is wrong and, in its last sentence or clause, what to do.
-std::string remedy_of(const std::string& message) {
-    const std::size_t sentence = message.rfind(". "), clause = message.rfind("; ");
-    const std::size_t at = sentence == std::string::npos ? clause : sentence;
-    return at == std::string::npos ? std::string() : message.substr(at + 2);
-}
-
 }  // namespace
 
 int conclude(const CommandResult& result) {
@@ -89,8 +82,7 @@ Json error_json(const Error& error) {
     Json out{
         {"code", exit_code(error.code)}, {"name", name_of(error.code)}, {"message", error.text()}};
     if (const std::string field = field_of(error); !field.empty()) out["field"] = field;
-    if (const std::string remedy = remedy_of(error.message); !remedy.empty())
-        out["remedy"] = remedy;
+    if (!error.remedy.empty()) out["remedy"] = error.remedy;
     return {{"schema", "weft.error/1"}, {"error", out}};
 }
 

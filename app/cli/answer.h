@@ -27,7 +27,7 @@ using CommandResult = Expected<Answer>;
 
 /// {"schema": "weft.error/1", "error": {"code", "name", "message", "field"?, "remedy"?}}. The field
 /// is the option ("--threads") or the place in the document ("regions[0].placement.scale") that the
-/// error names, the remedy its last sentence.
+/// error names.
 [[nodiscard]] nlohmann::ordered_json error_json(const Error& error);
 
 /// The absolute path; an empty one and a texture "db:ID" are unchanged. Patterns keep their

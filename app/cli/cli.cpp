@@ -52,17 +52,15 @@ int run_cli(int argc, char** argv, const EditCommand& edit) {
     try {
         const int code = parse_and_run(argc, argv, edit);
         if (code != 0 || !std::ferror(stdout)) return code;
-        return conclude(fail(ErrorCode::kNoSpace,
-                             "The standard output cannot be written. Free disk space, or redirect "
-                             "it elsewhere."));
+        return conclude(fail(ErrorCode::kNoSpace, "The standard output cannot be written.",
+                             "Free disk space, or redirect it elsewhere."));
     } catch (const std::bad_alloc&) {
         return conclude(
-            fail(ErrorCode::kNoSpace, "Out of memory. Use fewer --threads or smaller plates."));
+            fail(ErrorCode::kNoSpace, "Out of memory.", "Use fewer --threads or smaller plates."));
     } catch (const std::exception&) {
         // Messages of libraries do not help the user.
-        return conclude(fail(ErrorCode::kRenderFailed,
-                             "Internal error: an unexpected exception. Please report it with the "
-                             "command line."));
+        return conclude(fail(ErrorCode::kRenderFailed, "Internal error: an unexpected exception.",
+                             "Please report it with the command line."));
     }
 }
 

@@ -27,8 +27,8 @@ CommandResult cryptomatte_command(const std::string& path, const std::string& at
         int x = 0, y = 0, used = 0;
         if (std::sscanf(at.c_str(), "%d,%d%n", &x, &y, &used) != 2 ||
             used != static_cast<int>(at.size())) {
-            return fail(ErrorCode::kUsage,
-                        "--at must be a pixel, not '" + at + "'. Write it like 320,180.");
+            return fail(ErrorCode::kUsage, "--at must be a pixel, not '" + at + "'.",
+                        "Write it like 320,180.");
         }
         WEFT_TRY(picked, pick_cryptomatte(path, x, y));
         if (!picked.name.empty()) objects.push_back(std::move(picked));

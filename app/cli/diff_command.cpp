@@ -31,10 +31,10 @@ Expected<std::vector<int>> common_frames(const DiffOptions& options, const Frame
         WEFT_TRY(list, parse_frame_list(options.frames));
         wanted = std::move(list);
     } else if (a.frames() != b.frames() && a.frames().size() + b.frames().size() > 2) {
-        return fail(ErrorCode::kDiffers, options.a + " has frames " +
-                                             format_frame_list(a.frames()) + ", " + options.b +
-                                             " has " + format_frame_list(b.frames()) +
-                                             ". Compare those in both with --frames.");
+        return fail(ErrorCode::kDiffers,
+                    options.a + " has frames " + format_frame_list(a.frames()) + ", " + options.b +
+                        " has " + format_frame_list(b.frames()) + ".",
+                    "Compare those in both with --frames.");
     }
     return wanted;
 }

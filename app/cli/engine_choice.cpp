@@ -10,7 +10,7 @@ Expected<BackendChoice> choose_engine(int threads, const std::string& isa,
     set_thread_count(threads);
     const auto instructions = parse_isa(isa);
     if (instructions && !isa_available(*instructions))
-        return fail(ErrorCode::kNoBackend, "This processor lacks " + isa + ". Leave --isa out.");
+        return fail(ErrorCode::kNoBackend, "This processor lacks " + isa + ".", "Leave --isa out.");
     force_isa(instructions);
     return choose_backend(backend);
 }

@@ -76,8 +76,8 @@ std::string regions_text(const Project& project) {
 Status check_replaces_project(const std::string& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored) || load_project(path)) return {};
-    return fail(ErrorCode::kUsage,
-                path + " is not a Weft project. Choose another name, or remove it.");
+    return fail(ErrorCode::kUsage, path + " is not a Weft project.",
+                "Choose another name, or remove it.");
 }
 
 }  // namespace
@@ -285,7 +285,7 @@ Status read_some_mattes(const Shot& shot) {
 }  // namespace
 
 Error error_of(const Issue& issue) {
-    return {ErrorCode::kUsage, issue.what + ". " + issue.what_to_do + ".", {issue.where}};
+    return {ErrorCode::kUsage, issue.what + ".", issue.what_to_do + ".", {issue.where}};
 }
 
 CommandResult validate_command(const std::string& path, bool files) {
@@ -305,7 +305,7 @@ CommandResult validate_command(const std::string& path, bool files) {
         answer.error =
             json_output()
                 ? error_of(*wrong)
-                : Error{ErrorCode::kUsage, path + " has errors. Correct those listed.", {}};
+                : Error{ErrorCode::kUsage, path + " has errors.", "Correct those listed.", {}};
         return answer;
     }
     if (files) {

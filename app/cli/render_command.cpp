@@ -123,8 +123,8 @@ CommandResult dry_run(const Project& project, const RunOptions& run) {
 
 Status check_document(const Project& project) {
     if (project.output.path.empty()) {
-        return fail(ErrorCode::kUsage,
-                    "No output is set. Give a pattern with -o, such as 'out/####.png'.");
+        return fail(ErrorCode::kUsage, "No output is set.",
+                    "Give a pattern with -o, such as 'out/####.png'.");
     }
     for (const Issue& issue : validate(project)) {
         if (issue.severity == Severity::kError) return tl::unexpected(error_of(issue));
@@ -142,10 +142,11 @@ CommandResult render_command(const Project& given, const RunOptions& run) {
     // Absolute, since reports and errors may be read from another folder.
     project = resolve_paths(project, absolute_path("."));
     if (run.overwrite + run.skip_existing + run.resume > 1) {
-        return fail(ErrorCode::kUsage, std::string(run.resume ? "--resume" : "--skip-existing") +
-                                           " and " +
-                                           (run.overwrite ? "--overwrite" : "--skip-existing") +
-                                           " contradict each other. Leave one out.");
+        return fail(ErrorCode::kUsage,
+                    std::string(run.resume ? "--resume" : "--skip-existing") + " and " +
+                        (run.overwrite ? "--overwrite" : "--skip-existing") +
+                        " contradict each other.",
+                    "Leave one out.");
     }
     NamedByUser by_user = run.by_user;
     by_user.output_root = run.output_root;

@@ -4,6 +4,7 @@
 
 #include "app/cli/command_line.h"
 #include "app/cli/commands.h"
+#include "app/cli/help/usage.h"
 #include "app/cli/option_values.h"
 #include "app/render/memory_plan.h"
 #include "engine/media/decode_limit.h"
@@ -24,7 +25,7 @@ void add_memory_flag(CLI::App& command, RunOptions& run) {
             "--memory",
             [&run](const std::string& text) {
                 const auto bytes = parse_bytes(text);
-                if (!bytes) throw CLI::ValidationError("--memory", bytes.error().message);
+                if (!bytes) throw RefusedValue("--memory", bytes.error());
                 run.memory_bytes = *bytes;
                 set_decode_limit_bytes(*bytes / 2);  // before the first image is opened
             },
@@ -38,7 +39,7 @@ void add_stage_flag(CLI::App& command, RunOptions& run) {
             "--stage",
             [&run](const std::string& text) {
                 const auto stage = parse_job_stage(text);
-                if (!stage) throw CLI::ValidationError("--stage", stage.error().message);
+                if (!stage) throw RefusedValue("--stage", stage.error());
                 run.stage = *stage;
             },
             "One stage of the render, for a farm: motion, analyse, planes, frames, encode [all]")
@@ -94,7 +95,7 @@ void add_map_flag(CLI::App& command, RunOptions& run) {
             [&run](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) {
                     const auto map = parse_root_map(text);
-                    if (!map) throw CLI::ValidationError("--map", map.error().message);
+                    if (!map) throw RefusedValue("--map", map.error());
                     run.maps.push_back(*map);
                 }
             },

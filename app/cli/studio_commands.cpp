@@ -18,14 +18,14 @@ namespace fs = std::filesystem;
 
 Status submit_to_slurm(const std::string& folder) {
     if (!is_on_path("sbatch"))
-        return fail(ErrorCode::kUsage,
-                    "sbatch is not available on this machine. Run submit.sh on one that has it.");
+        return fail(ErrorCode::kUsage, "sbatch is not available on this machine.",
+                    "Run submit.sh on one that has it.");
     WEFT_TRY(child, start_process({"/bin/sh", (fs::path(folder) / "submit.sh").string()}, {}));
     const int code = wait_for_process(child);
     if (code == 0) return {};
-    return fail(ErrorCode::kRenderFailed, "Slurm refused the job (exit code " +
-                                              std::to_string(code) +
-                                              "). Correct what sbatch says, then run submit.sh.");
+    return fail(ErrorCode::kRenderFailed,
+                "Slurm refused the job (exit code " + std::to_string(code) + ").",
+                "Correct what sbatch says, then run submit.sh.");
 }
 
 Expected<std::vector<RootMap>> root_maps(const std::vector<std::string>& texts) {
@@ -87,12 +87,13 @@ Expected<FarmEngine> farm_engine(const SubmitOptions& options) {
                         options.engine + "'.");
     }
     if (options.run && engine->second != FarmEngine::kSlurm) {
-        return fail(ErrorCode::kUsage, "--run submits to Slurm only. The files for " +
-                                           options.engine + " are submitted with its own tools.");
+        return fail(ErrorCode::kUsage, "--run submits to Slurm only.",
+                    "The files for " + options.engine + " are submitted with its own tools.");
     }
     if (options.write.overwrite + options.skip_existing + options.resume > 1) {
         return fail(ErrorCode::kUsage,
-                    "--resume, --overwrite and --skip-existing contradict each other. Give one.");
+                    "--resume, --overwrite and --skip-existing contradict each other.",
+                    "Give one.");
     }
     return engine->second;
 }

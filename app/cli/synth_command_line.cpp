@@ -122,13 +122,14 @@ void add_synth(CLI::App& app, CommandResult& result) {
         char after = 0;
         if (std::sscanf(size->c_str(), "%dx%d%c", &width, &height, &after) != 2 || width < 1 ||
             height < 1) {
-            return fail(ErrorCode::kUsage, "--size must be two whole numbers above 0, not '" +
-                                               *size + "'. Write it like 512x512.");
+            return fail(ErrorCode::kUsage,
+                        "--size must be two whole numbers above 0, not '" + *size + "'.",
+                        "Write it like 512x512.");
         }
         options->plane.size = {width, height};
         if (std::sscanf(at->c_str(), "%d,%d%c", &options->at.x, &options->at.y, &after) != 2) {
-            return fail(ErrorCode::kUsage,
-                        "--at must be two whole numbers, not '" + *at + "'. Write it like 0,0.");
+            return fail(ErrorCode::kUsage, "--at must be two whole numbers, not '" + *at + "'.",
+                        "Write it like 0,0.");
         }
         return synth_command(*options);
     });

@@ -10,9 +10,8 @@ namespace {
 Expected<Zone> parse_zone(const std::string& text) {
     const std::size_t equals = text.find('='), at = text.find('@');
     if (equals == std::string::npos || at == std::string::npos || at < equals)
-        return fail(
-            ErrorCode::kUsage,
-            "--zone '" + text + "' is not KIND=VALUE@MATTE. Write it like light=0.3@12=a.png.");
+        return fail(ErrorCode::kUsage, "--zone '" + text + "' is not KIND=VALUE@MATTE.",
+                    "Write it like light=0.3@12=a.png.");
     Zone zone;
     const auto set = [&](std::string_view key, const std::string& value) -> Status {
         for (const Parameter<Zone>& parameter : zone_parameters()) {
@@ -47,8 +46,9 @@ Expected<std::vector<Zone>> parse_zones(const std::vector<std::string>& texts,
         }
         const auto& [frame, key] = *zone.matte.keyframes.begin();
         if (!same->matte.keyframes.emplace(frame, key).second)
-            return fail(ErrorCode::kUsage, "--zone: Frame " + std::to_string(frame) +
-                                               " of a zone has two mattes. Give one.");
+            return fail(ErrorCode::kUsage,
+                        "--zone: Frame " + std::to_string(frame) + " of a zone has two mattes.",
+                        "Give one.");
     }
     return zones;
 }

@@ -56,9 +56,8 @@ class EglContext {
 
   private:
     static tl::unexpected<Error> no_gl() {
-        return fail(ErrorCode::kRenderFailed,
-                    "OpenGL 3.3 is not available without a display. Install the software "
-                    "renderer (libgl1-mesa-dri), or run under a display.");
+        return fail(ErrorCode::kRenderFailed, "OpenGL 3.3 is not available without a display.",
+                    "Install the software renderer (libgl1-mesa-dri), or run under a display.");
     }
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EGLContext context_ = EGL_NO_CONTEXT;

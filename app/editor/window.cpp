@@ -214,16 +214,15 @@ GLFWwindow* make_window(const EditorOptions& options) {
 
 Expected<int> run_window(const EditorOptions& options) {
     if (!has_display() || !glfwInit()) {
-        return fail(ErrorCode::kRenderFailed,
-                    "No display is available for the editor. Set DISPLAY, or use the commands "
-                    "that need none: weft --help.");
+        return fail(ErrorCode::kRenderFailed, "No display is available for the editor.",
+                    "Set DISPLAY, or use the commands that need none: weft --help.");
     }
     GLFWwindow* window = make_window(options);
     if (!window) {
         glfwTerminate();
         return fail(ErrorCode::kRenderFailed,
-                    "The display gives no OpenGL 3.3, which the editor needs. Update the graphics "
-                    "driver, or use the commands that need none: weft --help.");
+                    "The display gives no OpenGL 3.3, which the editor needs.",
+                    "Update the graphics driver, or use the commands that need none: weft --help.");
     }
     glfwMakeContextCurrent(window);
     glfwSwapInterval(1);

@@ -33,8 +33,8 @@ Expected<std::vector<fs::path>> files_of(const std::string& path) {
             files.emplace_back(pattern->path_for(frame));
     }
     if (files.empty()) {
-        return fail(ErrorCode::kMissingFrames,
-                    path + " not found. Restore it, or change the project.");
+        return fail(ErrorCode::kMissingFrames, path + " not found.",
+                    "Restore it, or change the project.");
     }
     return files;
 }
@@ -150,7 +150,8 @@ Expected<Collected> collect_project(const Project& project, const std::string& n
     const fs::path file = root / name;
     std::error_code error;
     if (fs::exists(file, error)) {
-        return fail(ErrorCode::kUsage, file.string() + " exists already. Choose another folder.");
+        return fail(ErrorCode::kUsage, file.string() + " exists already.",
+                    "Choose another folder.");
     }
     WriteRule rule;
     WEFT_TRY(fence, make_fence(project, limits));

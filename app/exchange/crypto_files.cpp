@@ -15,8 +15,8 @@ Status name_crypto_files(Region& region, const std::string& plate) {
         const auto pattern = SequencePattern::parse(plate);
         std::error_code ignored;
         if (!pattern || std::filesystem::is_directory(plate, ignored)) {
-            return fail(ErrorCode::kUsage, "The Cryptomatte's files are not set. Set them" +
-                                               by({{setting::kCryptoFiles}}) + ".");
+            return fail(ErrorCode::kUsage, "The Cryptomatte's files are not set.",
+                        "Set them" + by({{setting::kCryptoFiles}}) + ".");
         }
         matte.files = plate;
         return {};

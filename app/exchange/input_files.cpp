@@ -105,9 +105,9 @@ Status check_apart(const std::vector<PlannedFile>& files) {
         if (fresh) continue;
         std::string second = file.what;  // lower-case inside the sentence
         second[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(second[0])));
-        return fail(ErrorCode::kUsage, at->second + " and " + second +
-                                           " would both be written to " + file.path +
-                                           ". Give one of them another name.");
+        return fail(ErrorCode::kUsage,
+                    at->second + " and " + second + " would both be written to " + file.path + ".",
+                    "Give one of them another name.");
     }
     return {};
 }

@@ -56,9 +56,8 @@ Region with_look_of(Region to, const Region& from) {
 
 Expected<Project> load_look(const std::string& path) {
     const auto bad = [&](const std::string& why) {
-        return fail(ErrorCode::kUnreadable, path + " is not a look: " + why +
-                                                ". Give a saved look" + by({{setting::kSaveLook}}) +
-                                                ".");
+        return fail(ErrorCode::kUnreadable, path + " is not a look: " + why + ".",
+                    "Give a saved look" + by({{setting::kSaveLook}}) + ".");
     };
     WEFT_TRY(text, read_file(path, "The look"));
     const OrderedJson json = OrderedJson::parse(text, nullptr, false);
@@ -118,9 +117,8 @@ Expected<Project> apply_look(const std::string& path, const Project& project,
         out = std::move(changed);
     }
     if (fitting > 0) return out;
-    return fail(ErrorCode::kUsage,
-                "No region of the project has the name of one of the look's. Choose a region" +
-                    by({{setting::kRegion}}) + ".");
+    return fail(ErrorCode::kUsage, "No region of the project has the name of one of the look's.",
+                "Choose a region" + by({{setting::kRegion}}) + ".");
 }
 
 }  // namespace weft

@@ -113,7 +113,7 @@ Expected<Relinked> relink_inputs(const Project& project, const std::string& fold
                                  const CancelToken& cancel) {
     std::error_code error;
     if (!fs::is_directory(folder, error))
-        return fail(ErrorCode::kMissingFrames, folder + " is not a folder. Choose another one.");
+        return fail(ErrorCode::kMissingFrames, folder + " is not a folder.", "Choose another one.");
     Relinked out;
     const std::vector<std::string> missing = missing_inputs(project);
     Candidates candidates(missing);

@@ -35,8 +35,8 @@ Expected<std::string> keep_what_loses(const DocumentSave& what) {
 }
 
 tl::unexpected<Error> always_changing(const std::string& path) {
-    return fail(ErrorCode::kUnreadable,
-                path + " is changed by another program again and again. Save under another name.");
+    return fail(ErrorCode::kUnreadable, path + " is changed by another program again and again.",
+                "Save under another name.");
 }
 
 // Merges what others changed into what is about to be saved. Returns false on conflicts without an
@@ -93,8 +93,8 @@ Expected<DocumentSaved> save_elsewhere(const DocumentSave& what) {
         WEFT_TRY(lock, lock_project(what.path));
         WEFT_TRY(there, project_hash(what.path));
         if (there && what.new_only)
-            return fail(ErrorCode::kUsage,
-                        what.path + " was just saved by another program. Save again.");
+            return fail(ErrorCode::kUsage, what.path + " was just saved by another program.",
+                        "Save again.");
         if (there && out.backup.empty()) {
             out.backup = backup_path(what.path);
             WEFT_CHECK_OK(copy_file_atomically(what.path, out.backup, WriteRule{}));

@@ -382,8 +382,8 @@ Expected<std::string> json_schema(const std::string& name) {
     if (name == "actions") return actions_schema().dump(2) + "\n";
     if (name == "report") return report_schema().dump(2) + "\n";
     if (name == "error") return error_schema().dump(2) + "\n";
-    return fail(ErrorCode::kUsage, "Unknown schema '" + name +
-                                       "'. The schemas are project, actions, report and error.");
+    return fail(ErrorCode::kUsage, "Unknown schema '" + name + "'.",
+                "The schemas are project, actions, report and error.");
 }
 
 }  // namespace weft

@@ -27,10 +27,11 @@ class Files {
         std::set_difference(frames.begin(), frames.end(), present.begin(), present.end(),
                             std::back_inserter(missing));
         if (missing.empty()) return Files(std::move(pattern), text);
-        return fail(ErrorCode::kMissingFrames,
-                    std::string(what) + " " + text + " has no file for " + frames_text(missing) +
-                        ". Add the files, or measure only the frames that have one" +
-                        by({{setting::kFrames}}) + ".");
+        return fail(
+            ErrorCode::kMissingFrames,
+            std::string(what) + " " + text + " has no file for " + frames_text(missing) + ".",
+            "Add the files, or measure only the frames that have one" + by({{setting::kFrames}}) +
+                ".");
     }
 
     [[nodiscard]] std::string on(int frame) const {
@@ -49,8 +50,9 @@ Expected<Size> plane_texels(const Region& region) {
     if (region.texture.plane.empty()) {
         return fail(ErrorCode::kUsage,
                     "The coordinates of the layer st count in planes, and the plane's proportions "
-                    "are not known. Give the render's plane" +
-                        by({{setting::kPlane}}) + "; a render exports it on request.");
+                    "are not known.",
+                    "Give the render's plane" + by({{setting::kPlane}}) +
+                        "; a render exports it on request.");
     }
     WEFT_TRY(picture, read_image(region.texture.plane));
     return picture.rgb.size();
@@ -73,15 +75,14 @@ Status check_seen(const FormTruth::Seen& seen, const std::string& positions,
                   const std::string& st) {
     if (seen.inside == 0) return {};
     if (seen.placed == 0) {
-        return fail(ErrorCode::kUnreadable, "The position pass " + positions +
-                                                " has no places inside the matte. Check its layer" +
-                                                by({{setting::kPositionLayer}}) +
-                                                " and that it is of this shot.");
+        return fail(
+            ErrorCode::kUnreadable,
+            "The position pass " + positions + " has no places inside the matte.",
+            "Check its layer" + by({{setting::kPositionLayer}}) + " and that it is of this shot.");
     }
     if (seen.laid == 0) {
-        return fail(ErrorCode::kUnreadable,
-                    "The layer st of " + st +
-                        " is empty inside the matte. Check that it is of this surface's render.");
+        return fail(ErrorCode::kUnreadable, "The layer st of " + st + " is empty inside the matte.",
+                    "Check that it is of this surface's render.");
     }
     return {};
 }
@@ -91,10 +92,8 @@ Status check_seen(const FormTruth::Seen& seen, const std::string& positions,
 Expected<FormMeasures> measure_form(const Shot& shot, const Region& region, const std::string& st,
                                     const std::vector<int>& frames, const CancelToken& cancel) {
     if (region.form.position.empty()) {
-        return fail(ErrorCode::kUsage,
-                    "How the texture lies is measured against the true surface. Give a position "
-                    "pass" +
-                        by({{setting::kPositionPass}}) + ".");
+        return fail(ErrorCode::kUsage, "How the texture lies is measured against the true surface.",
+                    "Give a position pass" + by({{setting::kPositionPass}}) + ".");
     }
     WEFT_TRY(texels, plane_texels(region));
     WEFT_TRY(passes, Files::open(region.form.position, "The position pass", frames));

@@ -74,8 +74,8 @@ class Measurer {
         shot_ = shot;
         out_.warnings = shot_->warnings;
         if (region().propagated()) {
-            return fail(ErrorCode::kUsage,
-                        "Measuring needs a matte for every frame; 'weft matte' makes them.");
+            return fail(ErrorCode::kUsage, "Measuring needs a matte for every frame",
+                        "'weft matte' makes them.");
         }
         frames_ = shot_->plan.frames;
         for (std::size_t k = 0; k < readers_.size(); ++k)

@@ -36,9 +36,8 @@ Expected<TruthMeasures> measure_truth(const Shot& shot, const ResultReader& resu
     std::set_intersection(frames.begin(), frames.end(), known.begin(), known.end(),
                           std::back_inserter(both));
     if (both.empty()) {
-        return fail(ErrorCode::kMissingFrames,
-                    "The truth has none of the measured frames. Check its pattern" +
-                        by({{setting::kTruth}}) + ".");
+        return fail(ErrorCode::kMissingFrames, "The truth has none of the measured frames.",
+                    "Check its pattern" + by({{setting::kTruth}}) + ".");
     }
     TruthComparison comparison(blur_px);
     for (const int frame : both) {

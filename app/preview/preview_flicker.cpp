@@ -92,7 +92,7 @@ Steadiness measure_steadiness(const FramePair& pair) {
         const Matte visible =
             visible_in_both(motion, pair.before.matte, pair.now.matte, options.erode_px);
         const TemporalError floor =
-            carried_tde(luma_8bit(pair.before.result), pair.before_from_now, motion, visible);
+            warped_tde(luma_8bit(pair.before.result), pair.before_from_now, motion, visible);
         if (floor.pixels > 0) out.flicker_floor = static_cast<float>(floor.tde);
     }
     if (pair.before.seams && pair.now.seams) {

@@ -222,8 +222,8 @@ Status follow_tracks(const RegionPlan& plan, const AnalysisStore& store, const R
                                         static_cast<float>(*(next - 1)), static_cast<float>(*next));
         out.two = TwoTracks{*(next - 1), *next, after, {}};
     }
-    for (const HistorySeam& seam : scene.seams) {
-        if (!seam.covers(out.frame) || !store.has({region, out.frame, AnalysisKind::kHistoryAfter}))
+    for (const TrackSeam& seam : scene.seams) {
+        if (!seam.covers(out.frame) || !store.has({region, out.frame, AnalysisKind::kTrackAfter}))
             continue;
         if (!out.two) out.two = TwoTracks{out.track_frame, out.track_frame, 0, {}};
         TwoTracks::Seam one;
@@ -232,8 +232,8 @@ Status follow_tracks(const RegionPlan& plan, const AnalysisStore& store, const R
                       seam.cell_px,
                       seam.origin,
                       {seam.after[static_cast<std::size_t>(out.frame - seam.first - 1)]}};
-        WEFT_TRY(before, store.get({region, out.frame, AnalysisKind::kHistoryBefore}));
-        WEFT_TRY(after, store.get({region, out.frame, AnalysisKind::kHistoryAfter}));
+        WEFT_TRY(before, store.get({region, out.frame, AnalysisKind::kTrackBefore}));
+        WEFT_TRY(after, store.get({region, out.frame, AnalysisKind::kTrackAfter}));
         WEFT_TRY(from_before, decode_lattice(before));
         WEFT_TRY(from_after, decode_lattice(after));
         one.before = std::move(from_before);

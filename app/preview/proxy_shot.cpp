@@ -170,8 +170,8 @@ class ProxyStore final : public AnalysisStore {
         switch (key.kind) {
             case AnalysisKind::kCoords:
             case AnalysisKind::kCoordsOneWay:
-            case AnalysisKind::kHistoryBefore:
-            case AnalysisKind::kHistoryAfter: {
+            case AnalysisKind::kTrackBefore:
+            case AnalysisKind::kTrackAfter: {
                 WEFT_TRY(field, decode_lattice(bytes));
                 return encode(shrunk(field, factor_));
             }

@@ -58,7 +58,7 @@ class ProxyShot {
 };
 
 /// The scenes as a proxy needs them. Their planes are those of `scenes`, shared; seams between
-/// histories, which are of full size, are left out.
+/// tracks, which are of full size, are left out.
 [[nodiscard]] std::vector<RegionScene> proxy_scenes(const std::vector<RegionScene>& scenes,
                                                     int factor);
 

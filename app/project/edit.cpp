@@ -84,11 +84,11 @@ Expected<Project> apply_one(const Project& project, const AddRegion& edit) {
     Region region = edit.region;
     if (region.id == 0) region.id = project.next_region_id;
     if (region.id == UINT32_MAX)
-        return fail(ErrorCode::kUsage, "The project has used up its region ids; start a new one");
+        return fail(ErrorCode::kUsage, "The project has used up its region ids", "start a new one");
     if (region_by_id(project, region.id))
-        return fail(
-            ErrorCode::kUsage,
-            fmt::format("There is a region with the id {} already; leave the id out", region.id));
+        return fail(ErrorCode::kUsage,
+                    fmt::format("There is a region with the id {} already", region.id),
+                    "leave the id out");
     WEFT_CHECK_OK(check_name_is_free(project, region.id, region.name));
     const int count = static_cast<int>(project.regions.size());
     const int index = edit.index.value_or(count);
@@ -144,15 +144,16 @@ Expected<Project> apply_one(const Project& project, const SetMatteKeyframe& edit
     WEFT_CHECK_OK(check_frame(edit.frame));
     return with_region(project, edit.region, [&](Region& region) -> Status {
         if (!region.matte->files.empty())
-            return fail(ErrorCode::kUsage, fmt::format("The matte of region '{}' comes from the "
-                                                       "files '{}'; set matte.files to nothing "
-                                                       "before giving it keyframes",
-                                                       shown(edit.region), region.matte->files));
-        if (!region.matte->shape.empty())
             return fail(ErrorCode::kUsage,
-                        fmt::format("The matte of region '{}' is drawn from a shape; remove "
-                                    "matte.shape before giving it keyframes",
-                                    shown(edit.region)));
+                        fmt::format("The matte of region '{}' comes from the "
+                                    "files '{}'",
+                                    shown(edit.region), region.matte->files),
+                        "set matte.files to nothing before giving it keyframes");
+        if (!region.matte->shape.empty())
+            return fail(
+                ErrorCode::kUsage,
+                fmt::format("The matte of region '{}' is drawn from a shape", shown(edit.region)),
+                "remove matte.shape before giving it keyframes");
         if (edit.path.empty())
             return fail(ErrorCode::kUsage,
                         fmt::format("The matte keyframe of frame {} needs a path", edit.frame));
@@ -226,9 +227,8 @@ Expected<Project> apply_one(const Project& project, const SetAmendments& edit) {
         for (const TexelRun& run : amendment.runs) {
             if (run.count < 1 || (run.orientation != 0 && run.count != 1))
                 return fail(ErrorCode::kUsage,
-                            fmt::format("A run of texels has the length {}; it must be 1 or more, "
-                                        "and 1 where the sample is turned",
-                                        run.count));
+                            fmt::format("A run of texels has the length {}", run.count),
+                            "it must be 1 or more, and 1 where the sample is turned");
         }
     }
     return with_region(project, edit.region, [&](Region& region) -> Status {

@@ -44,9 +44,8 @@ Expected<const Parameter<Owner>*> find_parameter(std::span<const Parameter<Owner
             if (distance < best) best = distance, nearest = key;
         }
     }
-    return fail(ErrorCode::kUsage,
-                fmt::format("Unknown parameter '{}'; check its name, the nearest is '{}'",
-                            key_or_flag.substr(0, 64), nearest));
+    return fail(ErrorCode::kUsage, fmt::format("Unknown parameter '{}'", key_or_flag.substr(0, 64)),
+                fmt::format("check its name, the nearest is '{}'", nearest));
 }
 template Expected<const Parameter<Region>*> find_parameter(std::span<const Parameter<Region>>,
                                                            std::string_view);

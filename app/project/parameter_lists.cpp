@@ -62,8 +62,8 @@ Expected<ParameterValue> names(const ParameterInfo& info, ParameterValue value) 
     for (const std::string& name : given) {
         if (std::find(info.choices.begin(), info.choices.end(), name) == info.choices.end())
             return fail(ErrorCode::kUsage,
-                        fmt::format("unknown name {}; the names are {}, or all",
-                                    quoted(name.substr(0, 60)), fmt::join(info.choices, ", ")));
+                        fmt::format("unknown name {}", quoted(name.substr(0, 60))),
+                        fmt::format("the names are {}, or all", fmt::join(info.choices, ", ")));
         if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
     }
     return ParameterValue(std::move(out));

@@ -149,8 +149,8 @@ Expected<ParameterValue> normalise_text(const ParameterInfo& info, ParameterValu
     const auto* text = std::get_if<std::string>(&value);
     if (!text) return wrong(info, value, std::string(type_name(info.kind)));
     if (text->find('\0') != std::string::npos)
-        return fail(ErrorCode::kUsage,
-                    display_name(info) + " contains a zero character; remove it");
+        return fail(ErrorCode::kUsage, display_name(info) + " contains a zero character",
+                    "remove it");
     return value;
 }
 
@@ -199,9 +199,9 @@ Expected<ParameterValue> normalise_paths(const ParameterInfo& info, ParameterVal
         return wrong(info, value, fmt::format("at most {}", info.max));
     for (const std::string& path : *paths) {
         if (path.empty() || path.find_first_of(std::string_view("\0\n", 2)) != std::string::npos)
-            return fail(ErrorCode::kUsage, display_name(info) +
-                                               " holds a path that is empty or "
-                                               "has a line break; remove it");
+            return fail(ErrorCode::kUsage,
+                        display_name(info) + " holds a path that is empty or has a line break",
+                        "remove it");
     }
     return value;
 }

@@ -68,9 +68,9 @@ Expected<std::size_t> find_region(const Project& project, std::string_view name_
     for (std::size_t i = 0; i < project.regions.size(); ++i) {
         if (project.regions[i]->name != name_or_id) continue;
         if (found != project.regions.size())
-            return fail(ErrorCode::kUsage, "Several regions are called '" +
-                                               std::string(name_or_id) +
-                                               "'; use the id, or rename one");
+            return fail(ErrorCode::kUsage,
+                        "Several regions are called '" + std::string(name_or_id) + "'",
+                        "use the id, or rename one");
         found = i;
     }
     if (found != project.regions.size()) return found;
@@ -80,8 +80,8 @@ Expected<std::size_t> find_region(const Project& project, std::string_view name_
     if (error == std::errc() && stop == end)
         for (std::size_t i = 0; i < project.regions.size(); ++i)
             if (project.regions[i]->id == id) return i;
-    return fail(ErrorCode::kUsage,
-                "Unknown region '" + std::string(name_or_id) + "'; " + list_regions(project));
+    return fail(ErrorCode::kUsage, "Unknown region '" + std::string(name_or_id) + "'",
+                list_regions(project));
 }
 
 const Region* region_by_id(const Project& project, RegionId id) {
@@ -99,36 +99,35 @@ Status add_matte_text(MatteSource& matte, std::string_view text) {
         error == std::errc() && equals != std::string_view::npos && stop == text.data() + equals;
     if (!keyframe) {
         if (text.empty())
-            return fail(ErrorCode::kUsage,
-                        "A matte is an empty text; give a pattern or FRAME=FILE");
+            return fail(ErrorCode::kUsage, "A matte is an empty text",
+                        "give a pattern or FRAME=FILE");
         if (!matte.empty())
-            return fail(
-                ErrorCode::kUsage,
-                "'" + shown + "' is a second matte; give one pattern, or keyframes as FRAME=FILE");
+            return fail(ErrorCode::kUsage, "'" + shown + "' is a second matte",
+                        "give one pattern, or keyframes as FRAME=FILE");
         constexpr std::string_view kCrypto = "crypto:";
         if (text.starts_with(kCrypto)) {
             matte.select.crypto = text.substr(kCrypto.size());
             if (matte.select.crypto.empty())
-                return fail(ErrorCode::kUsage,
-                            "'" + shown + "' names no object; write crypto:NAME");
+                return fail(ErrorCode::kUsage, "'" + shown + "' names no object",
+                            "write crypto:NAME");
             return {};
         }
         matte.files = shown;
         return {};
     }
     if (!is_frame_number(frame))
-        return fail(ErrorCode::kUsage, "'" + shown +
-                                           "' is a keyframe beyond frame 100000000; renumber the "
-                                           "shot, or correct the number");
+        return fail(ErrorCode::kUsage, "'" + shown + "' is a keyframe beyond frame 100000000",
+                    "renumber the shot, or correct the number");
     const std::string_view path = text.substr(equals + 1);
     if (path.empty())
-        return fail(ErrorCode::kUsage, "'" + shown + "' names no file; write FRAME=FILE");
+        return fail(ErrorCode::kUsage, "'" + shown + "' names no file", "write FRAME=FILE");
     if (!matte.files.empty())
-        return fail(ErrorCode::kUsage, "'" + shown + "' is a keyframe, but the matte is '" +
-                                           matte.files + "' already; give one or the other");
-    if (!matte.keyframes.emplace(frame, MatteKeyframe{std::string(path), {}}).second)
         return fail(ErrorCode::kUsage,
-                    "Frame " + std::to_string(frame) + " has two mattes; give one");
+                    "'" + shown + "' is a keyframe, but the matte is '" + matte.files + "' already",
+                    "give one or the other");
+    if (!matte.keyframes.emplace(frame, MatteKeyframe{std::string(path), {}}).second)
+        return fail(ErrorCode::kUsage, "Frame " + std::to_string(frame) + " has two mattes",
+                    "give one");
     return {};
 }
 
@@ -140,13 +139,14 @@ Status add_confirmed_text(MatteSource& matte, std::string_view text) {
     const char* const end = text.data() + (three ? equals : 0);
     const auto [stop, error] = std::from_chars(text.data(), end, frame);
     if (!three || error != std::errc() || stop != end || !is_frame_number(frame))
-        return fail(ErrorCode::kUsage,
-                    "'" + std::string(text) + "' is no confirmed part; write FRAME=MATTE,AREA");
+        return fail(ErrorCode::kUsage, "'" + std::string(text) + "' is no confirmed part",
+                    "write FRAME=MATTE,AREA");
     const std::string_view path = text.substr(equals + 1, comma - equals - 1);
     const ConfirmedEdge edge{std::string(path), std::string(text.substr(comma + 1))};
     if (!matte.confirmed.emplace(frame, edge).second)
-        return fail(ErrorCode::kUsage, "Parts of frame " + std::to_string(frame) +
-                                           " are confirmed twice; give one area for all of them");
+        return fail(ErrorCode::kUsage,
+                    "Parts of frame " + std::to_string(frame) + " are confirmed twice",
+                    "give one area for all of them");
     return {};
 }
 

@@ -9,8 +9,8 @@ Status check_name_is_free(const Project& project, RegionId id, const std::string
     for (const Leaf<Region>& other : project.regions)
         if (other->id != id && other->name == name)
             return fail(ErrorCode::kUsage,
-                        fmt::format("There is a region '{}' already (id {}). Choose another name",
-                                    name, other->id));
+                        fmt::format("There is a region '{}' already (id {}).", name, other->id),
+                        "Choose another name");
     return {};
 }
 

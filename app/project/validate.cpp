@@ -31,7 +31,7 @@ class Finder {
     void check_ranges(const Owner& owner, std::span<const Parameter<Owner>> table) {
         for (const Parameter<Owner>& parameter : table)
             if (const auto value = normalise(parameter, parameter.read(owner)); !value)
-                error(parameter.full_key(), value.error().message,
+                error(parameter.full_key(), value.error().sentence(),
                       "Set it to a value that is allowed");
     }
 
@@ -224,12 +224,9 @@ void check_region_set(Finder& find, const Project& project) {
     }
 }
 
-/// A message's first sentence and the rest, both without their full stops.
-std::pair<std::string, std::string> sentences(std::string message) {
-    if (message.ends_with('.')) message.pop_back();
-    const std::size_t stop = message.find(". ");
-    if (stop == std::string::npos) return {message, {}};
-    return {message.substr(0, stop), message.substr(stop + 2)};
+std::string without_full_stop(std::string sentence) {
+    if (sentence.ends_with('.')) sentence.pop_back();
+    return sentence;
 }
 
 }  // namespace
@@ -247,11 +244,9 @@ std::vector<Issue> validate(const Project& project) {
             "plate.path", "No plate is set",
             "Choose numbered images ('frames/####.png') or a movie" + by({{setting::kPlate}}));
     if (!project.settings.frames.empty())
-        if (const auto frames = parse_frame_list(project.settings.frames); !frames) {
-            const auto [what, remedy] = sentences(frames.error().message);
-            find.error("settings.frames", what,
-                       remedy.empty() ? "Write it like 1-40, 1-100x2 or 1,4,9-12" : remedy);
-        }
+        if (const auto frames = parse_frame_list(project.settings.frames); !frames)
+            find.error("settings.frames", without_full_stop(frames.error().message),
+                       without_full_stop(frames.error().remedy));
     check_output(find, project);
     check_region_set(find, project);
     for (std::size_t i = 0; i < project.regions.size(); ++i)

@@ -84,19 +84,19 @@ Expected<bool> is_current(const std::string& path, int frame, const WantedRecipe
         return false;
     }
     if (had["weft:backend"] == wanted["weft:backend"]) return true;
-    return fail(ErrorCode::kUsage, path + " was rendered on the backend '" + had["weft:backend"] +
-                                       "', this run would use '" + wanted["weft:backend"] +
-                                       "', and the two may differ by a level. Use that backend" +
-                                       by({{setting::kBackend, had["weft:backend"]}}) +
-                                       ", or render all frames again" + by({{setting::kRestart}}) +
-                                       ".");
+    return fail(ErrorCode::kUsage,
+                path + " was rendered on the backend '" + had["weft:backend"] +
+                    "', this run would use '" + wanted["weft:backend"] +
+                    "', and the two may differ by a level.",
+                "Use that backend" + by({{setting::kBackend, had["weft:backend"]}}) +
+                    ", or render all frames again" + by({{setting::kRestart}}) + ".");
 }
 
 Error already_there(const std::string& first, std::size_t count) {
     return {ErrorCode::kUsage,
             first + " exists already" +
-                (count > 1 ? ", and " + std::to_string(count - 1) + " more" : "") +
-                ". Resume, overwrite or skip" +
+                (count > 1 ? ", and " + std::to_string(count - 1) + " more" : "") + ".",
+            "Resume, overwrite or skip" +
                 by({{setting::kResume}, {setting::kOverwrite}, {setting::kSkipExisting}}) +
                 ", or use another folder.",
             {}};
@@ -110,10 +110,8 @@ bool is_frame_of_weft(const std::string& path) {
 
 Error not_of_weft(const std::string& path) {
     return {ErrorCode::kUsage,
-            path +
-                " was not rendered by Weft and would be replaced. Move it, choose another folder, "
-                "or overwrite it" +
-                by({{setting::kOverwrite}}) + ".",
+            path + " was not rendered by Weft and would be replaced.",
+            "Move it, choose another folder, or overwrite it" + by({{setting::kOverwrite}}) + ".",
             {}};
 }
 

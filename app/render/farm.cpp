@@ -91,10 +91,8 @@ Status check_plain_folder(FarmEngine engine, const std::string& folder) {
                                                       "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                                       "0123456789/._-+ ") == std::string::npos)
         return {};
-    return fail(ErrorCode::kUsage,
-                folder +
-                    " would stand in a command line of the farm. Choose a folder whose name has "
-                    "letters, digits and . _ - + only (-o).");
+    return fail(ErrorCode::kUsage, folder + " would stand in a command line of the farm.",
+                "Choose a folder whose name has letters, digits and . _ - + only (-o).");
 }
 
 using TextFiles = std::vector<std::pair<std::string, std::string>>;  // path, text
@@ -104,10 +102,10 @@ Status check_no_other_job(const std::string& job, const WriteRule& rule) {
     std::error_code ignored;
     if (rule.existing == Existing::kReplace || !fs::exists(fs::symlink_status(job, ignored)))
         return {};
-    return fail(ErrorCode::kUsage, job + " exists already. Choose another folder" +
-                                       by({{setting::kOutput}}) +
-                                       ", or cancel that job and replace it" +
-                                       by({{setting::kResume}, {setting::kOverwrite}}) + ".");
+    return fail(ErrorCode::kUsage, job + " exists already.",
+                "Choose another folder" + by({{setting::kOutput}}) +
+                    ", or cancel that job and replace it" +
+                    by({{setting::kResume}, {setting::kOverwrite}}) + ".");
 }
 
 // The 2023-09 schema limits the number of values in a range.
@@ -118,11 +116,11 @@ Status check_openjd(const FarmJob& job, int chunk) {
         const std::size_t wanted =
             (stage.frames.size() * static_cast<std::size_t>(std::max(1, chunk)) + kMostTasks - 1) /
             kMostTasks;
-        return fail(ErrorCode::kUsage,
-                    "Open Job Description allows at most 1024 tasks per step, and " + stage.name +
-                        " has " + std::to_string(stage.frames.size()) +
-                        ". Put more frames into a task" +
-                        by({{setting::kChunk, std::to_string(wanted)}}) + ".");
+        return fail(
+            ErrorCode::kUsage,
+            "Open Job Description allows at most 1024 tasks per step, and " + stage.name + " has " +
+                std::to_string(stage.frames.size()) + ".",
+            "Put more frames into a task" + by({{setting::kChunk, std::to_string(wanted)}}) + ".");
     }
     return {};
 }
@@ -218,13 +216,12 @@ Expected<Project> read_snapshot(const fs::path& folder, const Json& snapshot) {
         (folder / fs::path(snapshot.at("file").get<std::string>()).filename()).string();
     const auto text = read_file(path, "The job's project", kTextFileLimit_bytes);
     if (!text) {
-        return fail(ErrorCode::kUnreadable, text.error().message +
-                                                " Submit again, and keep the job's folder as it "
-                                                "is.");
+        return fail(ErrorCode::kUnreadable, text.error().sentence(),
+                    "Submit again, and keep the job's folder as it is.");
     }
     if (hash_of(*text) != snapshot.at("hash").get<std::string>()) {
-        return fail(ErrorCode::kUnreadable,
-                    path + " is not the project that was submitted. Submit again.");
+        return fail(ErrorCode::kUnreadable, path + " is not the project that was submitted.",
+                    "Submit again.");
     }
     return project_from_json(*text);
 }
@@ -238,9 +235,9 @@ Status choose_task(const Json& stages, const std::string& stage, int index, Farm
         if (name != stage) continue;
         const auto frames = entry.at("frames").get<std::vector<std::string>>();
         if (index < 0 || static_cast<std::size_t>(index) >= frames.size()) {
-            return fail(ErrorCode::kUsage, "The stage " + stage + " has no task " +
-                                               std::to_string(index) + ". Give one from 0 to " +
-                                               std::to_string(frames.size() - 1) + ".");
+            return fail(ErrorCode::kUsage,
+                        "The stage " + stage + " has no task " + std::to_string(index) + ".",
+                        "Give one from 0 to " + std::to_string(frames.size() - 1) + ".");
         }
         // An empty list means the whole shot.
         const std::string& chosen = frames[static_cast<std::size_t>(index)];
@@ -249,8 +246,8 @@ Status choose_task(const Json& stages, const std::string& stage, int index, Farm
         task.stage = known;
         return {};
     }
-    return fail(ErrorCode::kUsage,
-                "The job has no stage '" + stage + "'. Give one of " + names + ".");
+    return fail(ErrorCode::kUsage, "The job has no stage '" + stage + "'.",
+                "Give one of " + names + ".");
 }
 
 }  // namespace
@@ -265,8 +262,8 @@ bool is_farm_job(const std::string& path) {
 
 Expected<FarmTask> read_farm_task(const std::string& path, const std::string& stage, int index) {
     const auto bad = [&](const std::string& why) {
-        return fail(ErrorCode::kUnreadable, path + " is not a job: " + why +
-                                                ". Give the job.json that 'weft submit' wrote.");
+        return fail(ErrorCode::kUnreadable, path + " is not a job: " + why + ".",
+                    "Give the job.json that 'weft submit' wrote.");
     };
     WEFT_TRY(text, read_file(path, "The job"));
     const Json json = Json::parse(text, nullptr, false);
@@ -274,9 +271,10 @@ Expected<FarmTask> read_farm_task(const std::string& path, const std::string& st
         return bad(std::string("it is not of the schema ") + kSchema);
     try {
         if (const auto version = json.at("version").get<std::string>(); version != kVersion) {
-            return fail(ErrorCode::kUnreadable,
-                        "The job was submitted by weft " + version + ", and this is weft " +
-                            kVersion + ". Install one version on all machines, and submit again.");
+            return fail(
+                ErrorCode::kUnreadable,
+                "The job was submitted by weft " + version + ", and this is weft " + kVersion + ".",
+                "Install one version on all machines, and submit again.");
         }
         FarmTask task;
         WEFT_TRY(project, read_snapshot(fs::path(path).parent_path(), json.at("snapshot")));

@@ -43,8 +43,8 @@ Expected<Found> find(const JobSpec& spec, const CancelToken& cancel, const Progr
     options.files = open_fingerprints(spec.cache);
     WEFT_TRY(shot, open_shot(spec.project, options));
     if (shot->plan.regions.empty()) {
-        return fail(ErrorCode::kUsage, "The project has no region. Add one with a matte" +
-                                           by({{setting::kAddRegion}}) + ".");
+        return fail(ErrorCode::kUsage, "The project has no region.",
+                    "Add one with a matte" + by({{setting::kAddRegion}}) + ".");
     }
     WEFT_TRY(store, open_analysis_cache(*shot, spec.cache, warnings));
     ShotPlan plan = form_plan(shot->plan);

@@ -29,8 +29,8 @@ Status choose_job_backend(const JobSpec& spec, JobSetup& setup) {
 Status parse_output(const JobSpec& spec, JobSetup& setup) {
     const std::string& path = spec.project.output.path;
     if (path.empty()) {
-        return fail(ErrorCode::kUsage,
-                    "No output is set. Give a pattern with -o, such as 'out/####.png'.");
+        return fail(ErrorCode::kUsage, "No output is set.",
+                    "Give a pattern with -o, such as 'out/####.png'.");
     }
     WEFT_TRY(pattern, SequencePattern::parse(path));
     setup.pattern = std::move(pattern);
@@ -76,19 +76,20 @@ Status take_shot(const JobSpec& spec, const std::vector<int>& leave_out, JobSetu
 
 Status check_settings(const JobSpec& spec, const JobSetup& setup) {
     if (setup.plan.regions.empty()) {
-        return fail(ErrorCode::kUsage,
-                    "The project has no region. Add one with a matte and a texture.");
+        return fail(ErrorCode::kUsage, "The project has no region.",
+                    "Add one with a matte and a texture.");
     }
     if (setup.pattern.is_single() && setup.plan.frames.size() > 1) {
-        return fail(ErrorCode::kUsage, "The output " + setup.pattern.text() +
-                                           " has no frame number for " +
-                                           std::to_string(setup.plan.frames.size()) +
-                                           " frames. Write it like 'out/####.png'.");
+        return fail(ErrorCode::kUsage,
+                    "The output " + setup.pattern.text() + " has no frame number for " +
+                        std::to_string(setup.plan.frames.size()) + " frames.",
+                    "Write it like 'out/####.png'.");
     }
     if (spec.settings.empty() || spec.settings == settings_hash(*setup.shot)) return {};
     return fail(ErrorCode::kUnreadable,
                 "A texture, a colour space or a reference frame is not what it was when the job "
-                "was submitted: frames of one job would differ. Submit again.");
+                "was submitted: frames of one job would differ.",
+                "Submit again.");
 }
 
 // What the frames are made from, and whether that is what the job was submitted with.
@@ -105,8 +106,10 @@ Status know_inputs(const JobSpec& spec, const std::vector<int>& leave_out, JobSe
     std::string changed;
     for (const std::string& what : changed_inputs(spec.inputs, now))
         changed += (changed.empty() ? "" : ", ") + what;
-    return fail(ErrorCode::kUnreadable, "An input changed since the job was submitted (" + changed +
-                                            "): frames of one job would differ. Submit again.");
+    return fail(ErrorCode::kUnreadable,
+                "An input changed since the job was submitted (" + changed +
+                    "): frames of one job would differ.",
+                "Submit again.");
 }
 
 // Layers go into the output if it is EXR, otherwise into separate files.
@@ -115,10 +118,9 @@ Status choose_layer_files(JobSetup& setup) {
     if (output.layers.empty()) return {};
     if (output.layers_path.empty()) {
         if (is_exr(output.path)) return {};
-        return fail(
-            ErrorCode::kUsage,
-            "Layers need an EXR. Write the output as .exr, or the layers to separate files" +
-                by({{setting::kLayersOutput, "layers/####.exr"}}) + ".");
+        return fail(ErrorCode::kUsage, "Layers need an EXR.",
+                    "Write the output as .exr, or the layers to separate files" +
+                        by({{setting::kLayersOutput, "layers/####.exr"}}) + ".");
     }
     WEFT_TRY(pattern, SequencePattern::parse(output.layers_path));
     WEFT_CHECK_OK(check_format(output.layers_path, {.depth = PixelDepth::kHalf}));
@@ -138,10 +140,10 @@ Status choose_exports(const JobSpec& spec, JobSetup& setup) {
     WEFT_CHECK_OK(check_st_maps(spec.st_maps, setup.plan));
     WEFT_TRY(pattern, SequencePattern::parse(spec.st_maps));
     if (pattern.is_single() && setup.plan.frames.size() > 1) {
-        return fail(ErrorCode::kUsage, "The ST-maps " + pattern.text() +
-                                           " have no frame number for " +
-                                           std::to_string(setup.plan.frames.size()) +
-                                           " frames. Write it like 'st/####.exr'.");
+        return fail(ErrorCode::kUsage,
+                    "The ST-maps " + pattern.text() + " have no frame number for " +
+                        std::to_string(setup.plan.frames.size()) + " frames.",
+                    "Write it like 'st/####.exr'.");
     }
     setup.st_map_pattern = std::move(pattern);
     return {};

@@ -18,9 +18,8 @@ namespace {
 Status prepare_output(const Shot& shot, const SequencePattern& pattern, const WriteRule& rule) {
     const std::vector<int>& frames = shot.plan.frames;
     if (pattern.is_single() && frames.size() > 1) {
-        return fail(ErrorCode::kUsage,
-                    "The output " + pattern.text() +
-                        " has no frame number. Write it like 'mattes/####.png'.");
+        return fail(ErrorCode::kUsage, "The output " + pattern.text() + " has no frame number.",
+                    "Write it like 'mattes/####.png'.");
     }
     WEFT_CHECK_OK(make_folder_of(pattern.path_for(frames.front()), rule));
     for (const int frame : frames)

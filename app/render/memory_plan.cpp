@@ -41,9 +41,8 @@ Expected<std::size_t> frames_at_once(Size size, std::int64_t memory_bytes, bool 
     if (fits >= 1) return static_cast<std::size_t>(fits);
     const std::int64_t needed_mib = (((shot + frame) * 8 / 7) >> 20) + 1;
     return fail(ErrorCode::kNoSpace,
-                "A frame of " + size_text(size) +
-                    " does not fit into the memory limit. Allow at least " +
-                    std::to_string(needed_mib) + "M" + by({{setting::kMemory}}) +
+                "A frame of " + size_text(size) + " does not fit into the memory limit.",
+                "Allow at least " + std::to_string(needed_mib) + "M" + by({{setting::kMemory}}) +
                     (layers ? ", or render without layers." : ", or render at a smaller size."));
 }
 
@@ -55,9 +54,8 @@ std::int64_t render_memory_bytes(Size size, std::size_t side_by_side, bool layer
 
 Expected<std::int64_t> parse_bytes(std::string_view text) {
     const auto wrong = [&] {
-        return fail(
-            ErrorCode::kUsage,
-            "'" + std::string(text) + "' is not an amount of memory. Write it like 3G or 800M.");
+        return fail(ErrorCode::kUsage, "'" + std::string(text) + "' is not an amount of memory.",
+                    "Write it like 3G or 800M.");
     };
     double number = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);

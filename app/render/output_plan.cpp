@@ -58,8 +58,8 @@ Status check_fence(const SequencePattern& pattern, const std::vector<int>& frame
         const std::string path = pattern.path_for(frame);
         if (rule.fence) WEFT_CHECK_OK(rule.fence->check(path, real_path(path)));
         if (is_device(path))
-            return fail(ErrorCode::kUsage, path + " is a device or a pipe. Give names of files" +
-                                               by({{setting::kOutput}}) + ".");
+            return fail(ErrorCode::kUsage, path + " is a device or a pipe.",
+                        "Give names of files" + by({{setting::kOutput}}) + ".");
     }
     return {};
 }

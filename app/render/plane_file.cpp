@@ -17,22 +17,21 @@ bool is_png(const std::string& path) {
 
 Status check_plane_file(const std::string& path, const ShotPlan& plan) {
     if (!is_png(path) && !is_exr(path)) {
-        return fail(ErrorCode::kUsage,
-                    "The texture plane is written as .png (16 bit) or .exr, and " + path +
-                        " is neither. Choose one of them.");
+        return fail(
+            ErrorCode::kUsage,
+            "The texture plane is written as .png (16 bit) or .exr, and " + path + " is neither.",
+            "Choose one of them.");
     }
     if (plan.regions.size() != 1) {
         return fail(ErrorCode::kUsage,
                     "The project has " + std::to_string(plan.regions.size()) +
-                        " regions, and one file holds the texture plane of one. Disable the "
-                        "others" +
-                        by({{"enabled"}}) + ".");
+                        " regions, and one file holds the texture plane of one.",
+                    "Disable the others" + by({{"enabled"}}) + ".");
     }
     if (has_plane(plan.regions.front())) return {};
     return fail(ErrorCode::kUsage,
-                "There is no texture plane: the texture is synthesized for every frame. Set the "
-                "locked temporal mode" +
-                    by({{setting::kTemporalMode, "locked"}}) + ".");
+                "There is no texture plane: the texture is synthesized for every frame.",
+                "Set the locked temporal mode" + by({{setting::kTemporalMode, "locked"}}) + ".");
 }
 
 Status write_plane_file(const std::string& path, const PlanePyramid& plane,

@@ -158,9 +158,8 @@ struct Recipe {
 
 Expected<Recipe> load_recipe(const std::string& path) {
     const auto bad = [&](const std::string& why) {
-        return fail(ErrorCode::kUnreadable, path + " is not a recipe: " + why +
-                                                ". Give a file that a render wrote" +
-                                                by({{setting::kRecipe}}) + ".");
+        return fail(ErrorCode::kUnreadable, path + " is not a recipe: " + why + ".",
+                    "Give a file that a render wrote" + by({{setting::kRecipe}}) + ".");
     };
     WEFT_TRY(text, read_file(path, "The recipe", kRecipeLimit_bytes));
     const Json json = Json::parse(text, nullptr, false);
@@ -226,10 +225,8 @@ Expected<VerifyResult> verify_recipe(const VerifyOptions& options, const CancelT
         ++result.frames;
     }
     if (result.frames == 0)
-        return fail(ErrorCode::kUsage,
-                    "The recipe has none of the requested frames. Choose frames "
-                    "that it has" +
-                        by({{setting::kFrames}}) + ".");
+        return fail(ErrorCode::kUsage, "The recipe has none of the requested frames.",
+                    "Choose frames that it has" + by({{setting::kFrames}}) + ".");
     if (!options.rerender) return result;
 
     WEFT_TRY(folder, TemporaryFolder::create());

@@ -150,7 +150,8 @@ Status plane_stage(JobRun& job, std::optional<PlanesAhead>& planes) {
     if (job.spec.stage == JobStage::kEncode) {
         return fail(ErrorCode::kMissingFrames,
                     "The movie needs all frames, and " + frames_text(job.plan.frames) +
-                        " of them are missing or of other settings or inputs. Render them first.");
+                        " of them are missing or of other settings or inputs.",
+                    "Render them first.");
     }
     for (std::size_t k = 0; k < job.plan.regions.size(); ++k) {
         warn_of_samples(job, k);
@@ -289,8 +290,8 @@ Expected<JobStage> parse_job_stage(const std::string& name) {
         {"frames", JobStage::kFrames},   {"encode", JobStage::kEncode}};
     const auto at = kNames.find(name);
     if (at != kNames.end()) return at->second;
-    return fail(ErrorCode::kUsage, "Unknown stage '" + name +
-                                       "'. Choose motion, analyse, planes, frames, encode or all.");
+    return fail(ErrorCode::kUsage, "Unknown stage '" + name + "'.",
+                "Choose motion, analyse, planes, frames, encode or all.");
 }
 
 Expected<BackendChoice> choose_backend(const std::string& name) {

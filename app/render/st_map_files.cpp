@@ -11,17 +11,18 @@ namespace weft {
 
 Status check_st_maps(const std::string& pattern, const ShotPlan& plan) {
     if (!is_exr(pattern)) {
-        return fail(ErrorCode::kUsage, "ST-maps are 32 bit EXR files, and " + pattern +
-                                           " is none. Write it like 'st/####.exr'.");
+        return fail(ErrorCode::kUsage, "ST-maps are 32 bit EXR files, and " + pattern + " is none.",
+                    "Write it like 'st/####.exr'.");
     }
     const bool locked = std::all_of(plan.regions.begin(), plan.regions.end(), [](const auto& r) {
         return r.temporal == TemporalMode::kLocked;
     });
     if (locked) return {};
-    return fail(ErrorCode::kUsage,
-                "ST-maps to the reference frame need the locked temporal mode; in the others no "
-                "surface is followed. Set the mode" +
-                    by({{setting::kTemporalMode, "locked"}}) + ", or leave the maps out.");
+    return fail(
+        ErrorCode::kUsage,
+        "ST-maps to the reference frame need the locked temporal mode; in the others no surface is "
+        "followed.",
+        "Set the mode" + by({{setting::kTemporalMode, "locked"}}) + ", or leave the maps out.");
 }
 
 Status write_st_maps(const std::string& path, const StMaps& maps, WriteOptions write) {

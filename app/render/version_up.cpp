@@ -73,9 +73,8 @@ std::optional<int> version_in(const std::string& path) {
 Expected<Project> version_up(const Project& project) {
     const auto own = version_in(project.output.path);
     if (!own) {
-        return fail(ErrorCode::kUsage,
-                    "The output " + project.output.path +
-                        " has no version. Name it like 'out/shot_v001.####.exr' to version up" +
+        return fail(ErrorCode::kUsage, "The output " + project.output.path + " has no version.",
+                    "Name it like 'out/shot_v001.####.exr' to version up" +
                         by({{setting::kVersionUp}}) + ".");
     }
     constexpr int kLookedAhead = 1000;

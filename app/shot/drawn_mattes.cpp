@@ -12,9 +12,8 @@ Expected<std::shared_ptr<const CornerTrack>> DrawnMattes::track_of(const KeyedSh
     using Track = std::shared_ptr<const CornerTrack>;
     if (shape.follow == ShapeFollow::kNone) return std::make_shared<const CornerTrack>();
     if (shape.track.empty())
-        return fail(ErrorCode::kUsage,
-                    "A shape follows a track, but none is set. Choose a track, or let the shape "
-                    "follow nothing.");
+        return fail(ErrorCode::kUsage, "A shape follows a track, but none is set.",
+                    "Choose a track, or let the shape follow nothing.");
     const std::lock_guard lock(mutex_);
     Track& known = tracks_[shape.track];
     if (!known) {

@@ -24,9 +24,9 @@ Expected<ViewCamera> view_camera(const FormParams& form, const HeaderCamera& hea
     if (!fov_deg) {
         return fail(ErrorCode::kUnreadable,
                     path +
-                        " gives a form only with the camera's horizontal field of view, which "
-                        "is not in its header. Set it in degrees" +
-                        by({{setting::kFov}}) + ".");
+                        " gives a form only with the camera's horizontal field of view, which is "
+                        "not in its header.",
+                    "Set it in degrees" + by({{setting::kFov}}) + ".");
     }
     return camera_with(*fov_deg, plate);
 }
@@ -133,9 +133,10 @@ Expected<NormalPass> read_form_normals(const Region& region, const std::string& 
                 "The normals of " + path +
                     " are in the world's axes, and neither worldToCamera in its header nor a "
                     "position pass in the same file that fits the field of view" +
-                    by({{setting::kFov}}) + " tells the camera's. Give the position pass instead" +
-                    by({{setting::kPositionPass}}) + ", or normals in the camera's axes" +
-                    by({{setting::kNormalSpace, "camera"}}) + ".");
+                    by({{setting::kFov}}) + " tells the camera's.",
+                "Give the position pass instead" + by({{setting::kPositionPass}}) +
+                    ", or normals in the camera's axes" + by({{setting::kNormalSpace, "camera"}}) +
+                    ".");
 }
 
 }  // namespace weft

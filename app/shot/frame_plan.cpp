@@ -73,8 +73,8 @@ struct Followed {
         return fail(ErrorCode::kMissingFrames,
                     "The plate has no " + gaps_text(gaps) +
                         ", which the surface has to be followed through from its reference frame " +
-                        std::to_string(plan.reference_frames.front()) + ". " +
-                        around_gap(region, plan, shot, plate, plate.frames()));
+                        std::to_string(plan.reference_frames.front()) + ".",
+                    around_gap(region, plan, shot, plate, plate.frames()));
     }
 
     // Where the plate repeats a frame in place of a missing one, its other files are repeated too.
@@ -94,8 +94,8 @@ struct Followed {
         return fail(ErrorCode::kMissingFrames,
                     std::string(what) + " " + text + lacks(files) + gaps_text(gaps) +
                         ", which the surface has to be followed through from its reference frame " +
-                        std::to_string(plan.reference_frames.front()) + ". " +
-                        around_gap(region, plan, shot, plate, usable));
+                        std::to_string(plan.reference_frames.front()) + ".",
+                    around_gap(region, plan, shot, plate, usable));
     }
 };
 
@@ -111,8 +111,8 @@ Status check_pattern(const std::string& text, const char* what, const std::vecto
                std::binary_search(present.begin(), present.end(), plate.shown_frame(frame));
     });
     if (missing.empty()) return {};
-    return fail(ErrorCode::kMissingFrames, std::string(what) + " " + text + lacks(files) +
-                                               frames_text(missing) + ". " + remedy);
+    return fail(ErrorCode::kMissingFrames,
+                std::string(what) + " " + text + lacks(files) + frames_text(missing) + ".", remedy);
 }
 
 Status check_pattern(const std::string& text, const char* what, const std::vector<int>& wanted,
@@ -318,10 +318,10 @@ Expected<std::vector<int>> frames_to_render(const Project& project, const FrameR
         std::erase_if(frames, [&](int frame) { return plate.shown_frame(frame) != frame; });
     const std::vector<int> missing = missing_in(frames, plate.frames());
     if (!missing.empty()) {
-        return fail(ErrorCode::kMissingFrames, "The plate " + project.plate.path + " has no " +
-                                                   frames_text(missing) + ". Choose among its " +
-                                                   frames_text(plate.frames()) +
-                                                   by({{setting::kFrames}}) + ".");
+        return fail(
+            ErrorCode::kMissingFrames,
+            "The plate " + project.plate.path + " has no " + frames_text(missing) + ".",
+            "Choose among its " + frames_text(plate.frames()) + by({{setting::kFrames}}) + ".");
     }
     return frames;
 }
@@ -374,8 +374,8 @@ Status check_files(const Region& region, const RegionPlan& plan, const ShotPlan&
         if (!untracked.empty()) {
             return fail(ErrorCode::kMissingFrames,
                         "The track " + region.motion.track + " has nothing for " +
-                            frames_text(untracked) +
-                            ". Track the whole shot, or render only the frames that it has" +
+                            frames_text(untracked) + "; it has " + frames_text(tracked) + ".",
+                        "Track the whole shot, or render only the frames that it has" +
                             by({{setting::kFrames}}) + ".");
         }
     }

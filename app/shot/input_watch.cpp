@@ -89,10 +89,8 @@ Status check_unchanged(const std::vector<std::string>& changed) {
         changed.size() > 1 ? " and " + std::to_string(changed.size() - 1) + " more" : "";
     return fail(
         ErrorCode::kUnreadable,
-        "The input " + changed.front() + more +
-            " changed during the run; frames may be mixed. Overwrite them when the inputs are "
-            "complete" +
-            by({{setting::kOverwrite}}) + ".");
+        "The input " + changed.front() + more + " changed during the run; frames may be mixed.",
+        "Overwrite them when the inputs are complete" + by({{setting::kOverwrite}}) + ".");
 }
 
 }  // namespace weft

@@ -78,6 +78,9 @@ Expected<std::vector<std::string>> check_matte_movies(const Region& region,
         std::move(own.begin(), own.end(), std::back_inserter(warnings));
         auto counted = count_warning(region.name, text, movie->frame_count(), plate);
         if (!counted.empty()) warnings.push_back(std::move(counted));
+        if (!select.channel.empty()) return {};
+        WEFT_TRY(judged, movie->judge());
+        if (!judged.empty()) warnings.push_back("Region '" + region.name + "': " + judged);
         return {};
     };
     for (const MatteSource* matte : matte_sources(region))

@@ -97,14 +97,14 @@ class RegionCheck {
 };
 
 Error nothing_moves(const Region& region, const Checked& at) {
-    return {
-        ErrorCode::kUnreadable,
-        fmt::format("The motion {} is zero everywhere on frame {}, but the surface moves by "
-                    "{:.1f} px there. Blender writes such a pass where motion blur is on: "
-                    "render it without, or leave the files out{}, so that the motion is "
-                    "estimated.",
-                    region.motion.files, at.frame, at.fit.estimated_px, by({{setting::kMotion}})),
-        {}};
+    return {ErrorCode::kUnreadable,
+            fmt::format("The motion {} is zero everywhere on frame {}, but the surface moves by "
+                        "{:.1f} px there.",
+                        region.motion.files, at.frame, at.fit.estimated_px),
+            fmt::format("Blender writes such a pass where motion blur is on: render it without, or "
+                        "leave the files out{}, so that the motion is estimated.",
+                        by({{setting::kMotion}})),
+            {}};
 }
 
 std::string other_motion(const Region& region, const std::vector<Checked>& wrong) {

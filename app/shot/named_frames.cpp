@@ -11,9 +11,10 @@ Status check_named_frames(const Region& region, const FrameReader& plate) {
     const auto check = [&](int frame, const char* before, const std::string& after) -> Status {
         const std::vector<int>& frames = plate.frames();
         if (std::binary_search(frames.begin(), frames.end(), frame)) return {};
-        return fail(ErrorCode::kMissingFrames, before + std::to_string(frame) +
-                                                   " is not in the plate (" + frames_list(frames) +
-                                                   "). " + after);
+        return fail(
+            ErrorCode::kMissingFrames,
+            before + std::to_string(frame) + " is not in the plate (" + frames_list(frames) + ").",
+            after);
     };
     for (const int frame : region.reference_frames)
         WEFT_CHECK_OK(check(frame, "The reference frame ",

@@ -11,7 +11,8 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
     Matte out = *found->second;
     if (out.size() != expected) {
         return fail(ErrorCode::kUnreadable,
-                    "The painted matte " + path + " is not of the plate's size. Paint it again.");
+                    "The painted matte " + path + " is not of the plate's size.",
+                    "Paint it again.");
     }
     const auto change = [&](auto&& code) {
         std::transform(out.data(), out.data() + out.size_bytes(), out.data(), code);

@@ -13,6 +13,7 @@
 #include "engine/media/image_files.h"
 #include "engine/media/light_passes.h"
 #include "engine/media/sequence_pattern.h"
+#include "engine/media/stereo_views.h"
 
 namespace weft {
 namespace {
@@ -31,6 +32,14 @@ std::optional<std::string> first_file(const std::string& files, const std::vecto
         if (pattern->is_single()) break;
     }
     return std::nullopt;
+}
+
+// Of another view than the plate's layer, which without a view in its name is of the first one.
+bool is_of_another_view(const PassLayer& pass, const std::string& plate) {
+    if (pass.view.empty()) return false;
+    std::string view = split_view(plate, {pass.view}).view;
+    if (view.empty()) view = split_view(plate, {}).view;
+    return view.empty() ? !pass.first_view : !same_ignoring_case(view, pass.view);
 }
 
 class Chooser {
@@ -78,6 +87,13 @@ class Chooser {
         if (!layer.empty()) return {};
         layer = found.layer.name;
         if (!found.also_called.empty()) tell_choice(what, files, found, setting);
+        if (is_of_another_view(found.layer, plate_.layer)) {
+            choice.warnings.push_back("Region '" + region_.name + "': the " + what + " " + *path +
+                                      " has the view '" + found.layer.view +
+                                      "' only, and the plate is of another. Name its layer if it "
+                                      "is meant" +
+                                      by({{setting}}) + ".");
+        }
         return {};
     }
 
@@ -140,8 +156,9 @@ class Chooser {
         const std::string what = albedo ? "albedo" : "lighting";
         return fail(ErrorCode::kUnreadable,
                     "The " + what + " pass " + *path +
-                        " is the plate's own picture, light and colour together. Give the " + what +
-                        " pass" + by({{albedo ? setting::kAlbedo : setting::kLighting}}) +
+                        " is the plate's own picture, light and colour together.",
+                    "Give the " + what + " pass" +
+                        by({{albedo ? setting::kAlbedo : setting::kLighting}}) +
                         ", or name its layer" + by({{setting::kLightLayer}}) + ".");
     }
 

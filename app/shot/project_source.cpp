@@ -189,8 +189,8 @@ class ProjectSource final : public ShotSource {
         if (picture.rgb.size() == size()) return {};
         return fail(ErrorCode::kUnreadable,
                     path + " is " + std::to_string(picture.rgb.width()) + " x " +
-                        std::to_string(picture.rgb.height()) +
-                        ", but the plate is not. Give a pass of the plate's size.");
+                        std::to_string(picture.rgb.height()) + ", but the plate is not.",
+                    "Give a pass of the plate's size.");
     }
     [[nodiscard]] Expected<Matte> read(const MatteSource& source, int frame) const {
         if (!source.shape.empty()) {

@@ -131,7 +131,8 @@ Expected<std::vector<int>> candidates(const Region& region, const FrameReader& p
     return fail(ErrorCode::kMissingFrames,
                 "The matte " + region.matte->files +
                     " has no file for any frame of the plate, which has " +
-                    frames_text(plate.frames()) + ". Check the pattern and its numbers.");
+                    frames_text(plate.frames()) + ".",
+                "Check the pattern and its numbers.");
 }
 
 // Returns true for one matte for all frames and no animated holdouts.

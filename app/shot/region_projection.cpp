@@ -62,9 +62,9 @@ Status project_warp(const Placement& placement, TemporalMode mode, RegionPlan& p
     if (mode != TemporalMode::kLocked || !placement.uv.empty()) {
         return fail(ErrorCode::kUsage,
                     "A grid warp needs the locked temporal mode, and no UV pass beside it, which "
-                    "gives the exact place already. Set the mode" +
-                        by({{setting::kTemporalMode, "locked"}}) + ", or remove the warp" +
-                        by({{setting::kWarp, "none"}}) + ".");
+                    "gives the exact place already.",
+                    "Set the mode" + by({{setting::kTemporalMode, "locked"}}) +
+                        ", or remove the warp" + by({{setting::kWarp, "none"}}) + ".");
     }
     if (auto checked = check_grid_warp(*placement.warp); !checked)
         return fail_in(std::move(checked).error(), "grid warp");
@@ -93,9 +93,8 @@ MatteEdgePlan project_edge(const MatteEdgeParams& edge) {
 Status add_frozen_mattes(Region& region) {
     if (region.matte->frozen.empty()) return {};
     if (region.matte->frozen_files.empty() || region.matte->by_frame()) {
-        return fail(ErrorCode::kUsage,
-                    "Frozen mattes need their files and painted keyframes. Set both" +
-                        by({{setting::kMatteFrozenFiles}, {setting::kMatte}}) + ".");
+        return fail(ErrorCode::kUsage, "Frozen mattes need their files and painted keyframes.",
+                    "Set both" + by({{setting::kMatteFrozenFiles}, {setting::kMatte}}) + ".");
     }
     WEFT_TRY(pattern, SequencePattern::parse(region.matte->frozen_files));
     region.matte = region.matte.with([&](MatteSource& matte) {
@@ -108,8 +107,8 @@ Status add_frozen_mattes(Region& region) {
 Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& holdouts,
                       RegionPlan& plan) {
     if (matte.empty()) {
-        return fail(ErrorCode::kUsage, "It has no matte. Give files or painted keyframes" +
-                                           by({{setting::kMatte}}) + ".");
+        return fail(ErrorCode::kUsage, "It has no matte.",
+                    "Give files or painted keyframes" + by({{setting::kMatte}}) + ".");
     }
     for (const auto& [frame, key] : matte.keyframes)
         plan.matte_keys.push_back(frame);
@@ -125,9 +124,9 @@ Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& 
             continue;
         }
         if (holdout.keyframes.empty()) {
-            return fail(ErrorCode::kUsage,
-                        "A holdout has no matte. Give files or painted keyframes" +
-                            by({{setting::kHoldout}}) + ", or remove it.");
+            return fail(
+                ErrorCode::kUsage, "A holdout has no matte.",
+                "Give files or painted keyframes" + by({{setting::kHoldout}}) + ", or remove it.");
         }
         plan.painted_holdouts.push_back(painted_matte(holdout));
     }
@@ -137,8 +136,9 @@ Status project_mattes(const MatteSource& matte, const std::vector<MatteSource>& 
 Status project_zones(const std::vector<Zone>& zones, RegionPlan& plan) {
     for (const Zone& zone : zones) {
         if (zone.matte.empty()) {
-            return fail(ErrorCode::kUsage, "A zone has no matte. Give files or painted keyframes" +
-                                               by({{setting::kZone}}) + ", or remove it.");
+            return fail(
+                ErrorCode::kUsage, "A zone has no matte.",
+                "Give files or painted keyframes" + by({{setting::kZone}}) + ", or remove it.");
         }
         ZonePlan planned;
         planned.kind = zone.kind;
@@ -165,9 +165,8 @@ Status project_motion(const MotionSource& motion, RegionPlan& plan) {
     plan.true_motion = !motion.files.empty();
     plan.motion_forward = motion.direction == MotionDirection::kForward;
     if (motion.track.empty() || !plan.true_motion) return {};
-    return fail(ErrorCode::kUsage,
-                "It has both a planar track and motion files. Keep one of the two" +
-                    by({{setting::kTrack}, {setting::kMotion}}) + ".");
+    return fail(ErrorCode::kUsage, "It has both a planar track and motion files.",
+                "Keep one of the two" + by({{setting::kTrack}, {setting::kMotion}}) + ".");
 }
 
 Status project_placement(const Placement& placement, TemporalMode mode, RegionPlan& plan) {
@@ -178,8 +177,8 @@ Status project_placement(const Placement& placement, TemporalMode mode, RegionPl
     if (plan.placement_moves() && mode != TemporalMode::kLocked) {
         return fail(ErrorCode::kUsage,
                     "An animated placement needs the locked temporal mode; the other modes "
-                    "synthesize the texture in place. Set it" +
-                        by({{setting::kTemporalMode, "locked"}}) + ".");
+                    "synthesize the texture in place.",
+                    "Set it" + by({{setting::kTemporalMode, "locked"}}) + ".");
     }
     if (!plan.scale_keys.empty()) {
         const auto& keys = plan.scale_keys.keys;
@@ -194,8 +193,8 @@ Status project_placement(const Placement& placement, TemporalMode mode, RegionPl
     if (plan.has_uv && mode != TemporalMode::kLocked) {
         return fail(ErrorCode::kUsage,
                     "A UV pass needs the locked temporal mode; the other modes synthesize the "
-                    "texture in place. Set it" +
-                        by({{setting::kTemporalMode, "locked"}}) + ".");
+                    "texture in place.",
+                    "Set it" + by({{setting::kTemporalMode, "locked"}}) + ".");
     }
     return {};
 }
@@ -204,22 +203,21 @@ Status project_drawn_form(const Region& region, bool laid, RegionPlan& plan) {
     if (!laid) {
         return fail(ErrorCode::kUsage,
                     "A shape needs the locked temporal mode, and no UV pass beside it, which gives "
-                    "the exact place already. Set the mode" +
-                        by({{setting::kTemporalMode, "locked"}}) + ", or leave the shape out.");
+                    "the exact place already.",
+                    "Set the mode" + by({{setting::kTemporalMode, "locked"}}) +
+                        ", or leave the shape out.");
     }
     const bool plane = std::any_of(
         region.form.strokes.begin(), region.form.strokes.end(),
         [](const FormGuide& stroke) { return stroke.kind == FormGuideKind::kParallel; });
     if (region.form.shape.empty() && !plane) {
-        return fail(ErrorCode::kUsage,
-                    "The form is to come from a shape, but there is none. Draw one" +
-                        by({{setting::kFormShape}, {setting::kFormStrokes}}) +
+        return fail(ErrorCode::kUsage, "The form is to come from a shape, but there is none.",
+                    "Draw one" + by({{setting::kFormShape}, {setting::kFormStrokes}}) +
                         ", or choose another source" + by({{setting::kFormSource}}) + ".");
     }
     if (!region.form.shape.empty() && plane) {
-        return fail(ErrorCode::kUsage,
-                    "A shape and parallel strokes both say what the form is. Remove the one" +
-                        by({{setting::kFormShape}}) + " or the others" +
+        return fail(ErrorCode::kUsage, "A shape and parallel strokes both say what the form is.",
+                    "Remove the one" + by({{setting::kFormShape}}) + " or the others" +
                         by({{setting::kFormStrokes}}) + ".");
     }
     plan.form_from = RegionPlan::FormFrom::kShape;
@@ -257,8 +255,8 @@ Status project_form(const Region& region, RegionPlan& plan) {
         if (!locked || plan.has_uv) {
             return fail(ErrorCode::kUsage,
                         "An inflated form needs the locked temporal mode, and no UV pass beside "
-                        "it, which gives the exact place already. Set the mode" +
-                            by({{setting::kTemporalMode, "locked"}}) +
+                        "it, which gives the exact place already.",
+                        "Set the mode" + by({{setting::kTemporalMode, "locked"}}) +
                             ", or choose another source" + by({{setting::kFormSource}}) + ".");
         }
         plan.form_from = pass.from;
@@ -268,16 +266,17 @@ Status project_form(const Region& region, RegionPlan& plan) {
     }
     if (pass.pattern.empty()) {
         return fail(ErrorCode::kUsage,
-                    "The form is to come from the depth pass, but there is none. Give it" +
-                        by({{setting::kDepth}}) + ", or choose another source" +
+                    "The form is to come from the depth pass, but there is none.",
+                    "Give it" + by({{setting::kDepth}}) + ", or choose another source" +
                         by({{setting::kFormSource}}) + ".");
     }
     if (!locked || plan.has_uv) {
-        return fail(ErrorCode::kUsage,
-                    pass.what +
-                        " as form needs the locked temporal mode, and no UV pass beside it, "
-                        "which gives the exact place already. Set the mode" +
-                        by({{setting::kTemporalMode, "locked"}}) + ", or leave one pass out.");
+        return fail(
+            ErrorCode::kUsage,
+            pass.what +
+                " as form needs the locked temporal mode, and no UV pass beside it, which gives "
+                "the exact place already.",
+            "Set the mode" + by({{setting::kTemporalMode, "locked"}}) + ", or leave one pass out.");
     }
     plan.form_from = pass.from;
     plan.form_fov_deg = region.form.fov_deg;
@@ -309,8 +308,8 @@ Status project_light(const LightParams& light, bool display_referred, RegionPlan
     plan.strength_keys = light.strength_keys;
     plan.lamps = light.lamps;
     if (light.source == LightSource::kPainted && plan.lamps.empty())
-        return fail(ErrorCode::kUsage,
-                    "Painted light needs lamps. Add one" + by({{setting::kLamps}}) + ".");
+        return fail(ErrorCode::kUsage, "Painted light needs lamps.",
+                    "Add one" + by({{setting::kLamps}}) + ".");
     plan.detail = static_cast<float>(light.detail);
     plan.keep_detail = static_cast<float>(light.keep_detail);
     plan.cast.reset();
@@ -322,8 +321,8 @@ Status project_light(const LightParams& light, bool display_referred, RegionPlan
                                               : RegionPlan::Pass::kNone;
     plan.exact_light = light.exact;
     if (light.exact && plan.light_pass == RegionPlan::Pass::kNone) {
-        return fail(ErrorCode::kUsage,
-                    "Exact light needs a pass. Give an albedo or a lighting pass" +
+        return fail(ErrorCode::kUsage, "Exact light needs a pass.",
+                    "Give an albedo or a lighting pass" +
                         by({{setting::kAlbedo}, {setting::kLighting}}) + ".");
     }
     return {};

@@ -38,7 +38,8 @@ Status settle_region(Region& region, Shot& shot) {
     std::move(movies.begin(), movies.end(), std::back_inserter(shot.warnings));
     choose_crypto_layers(region, shot);
     WEFT_CHECK_OK(add_frozen_mattes(region));
-    choose_matte_channels(region, shot.plate->frames());
+    WEFT_TRY(channels, choose_matte_channels(region, shot.plate->frames()));
+    std::move(channels.begin(), channels.end(), std::back_inserter(shot.warnings));
     if (std::string trimmed = leave_out_trimmed(region, *shot.plate); !trimmed.empty())
         shot.warnings.push_back(std::move(trimmed));
     WEFT_TRY(passes, choose_pass_layers(region, plate, shot.plate->frames()));

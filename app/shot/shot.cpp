@@ -71,8 +71,8 @@ class ShotOpener {
     Status open_plate_reader() {
         const Plate& plate = shot_.project.plate;
         if (plate.path.empty())
-            return fail(ErrorCode::kUsage,
-                        "No plate is set. Choose one" + by({{setting::kPlate}}) + ".");
+            return fail(ErrorCode::kUsage, "No plate is set.",
+                        "Choose one" + by({{setting::kPlate}}) + ".");
         shot_.plate = options_.plate;
         if (!shot_.plate) {
             WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
@@ -300,8 +300,9 @@ class ShotOpener {
         const bool is_plane = given || shows_sample(region.texture.mode);
         const std::string& path = given ? region.texture.plane : region.texture.sample;
         if (path.empty()) {
-            return fail(ErrorCode::kUsage, "It has no texture. Choose a sample or a plane" +
-                                               by({{setting::kSample}, {setting::kPlane}}) + ".");
+            return fail(
+                ErrorCode::kUsage, "It has no texture.",
+                "Choose a sample or a plane" + by({{setting::kSample}, {setting::kPlane}}) + ".");
         }
         WEFT_TRY(first, open_texture(region, path, is_plane, plan.overlap_px));
         const ColorSpace texture_space = first.space;
@@ -351,8 +352,8 @@ class ShotOpener {
     Status add_light_picture(const Region& region, RegionPlan& plan) {
         if (plan.light_source != LightSource::kImage) return {};
         if (region.light.image.empty()) {
-            return fail(ErrorCode::kUsage, "The light source 'image' needs an image. Choose one" +
-                                               by({{setting::kLightSource}}) + ".");
+            return fail(ErrorCode::kUsage, "The light source 'image' needs an image.",
+                        "Choose one" + by({{setting::kLightSource}}) + ".");
         }
         WEFT_TRY(picture, read_image(watched(region.light.image)));
         WEFT_TRY(to_linear,

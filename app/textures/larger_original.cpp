@@ -49,16 +49,15 @@ Expected<LargerOriginal> keep_larger_original(const std::string& library_path,
     const std::string path = library_path.empty() ? default_library_path() : library_path;
     if (name.empty())
         return fail(ErrorCode::kUsage,
-                    "This texture is not from the library, so it has no larger original. Take a "
-                    "larger picture of the surface.");
+                    "This texture is not from the library, so it has no larger original.",
+                    "Take a larger picture of the surface.");
     WEFT_TRY(texture, resolve_texture(path, name));
     WEFT_TRY(crop, crop_of(path, texture.credit.id));
     const float scale = static_cast<float>(crop.width()) / kSample_px;
     Recti box = crop.intersected(rect_of(texture.original.size()));
     if (scale < kWorthIt || texture.original.empty() || box.size() != crop.size())
-        return fail(ErrorCode::kUsage,
-                    "This texture has no larger original, or its image is gone. Take a "
-                    "larger picture of the surface.");
+        return fail(ErrorCode::kUsage, "This texture has no larger original, or its image is gone.",
+                    "Take a larger picture of the surface.");
     // A larger area than the sample's gives the synthesis more material.
     const auto widen = [](int& low, int& high, int limit) {
         const int wanted = std::min(limit, std::max(high - low, kLargest_px));

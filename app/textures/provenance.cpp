@@ -58,12 +58,12 @@ Provenance::Answer Provenance::at(Vec2 p) const {
         out.made_anew = 1;
     } else if (temporal == TemporalMode::kPaper) {
         out.made_anew = fresh;
-        out.histories = {{frame + (frame < track_frame ? 1 : -1), 1 - fresh}};
+        out.tracks = {{frame + (frame < track_frame ? 1 : -1), 1 - fresh}};
     } else if (const auto after = share_after(p)) {
-        if (*after < 1) out.histories.push_back({two->before, 1 - *after});
-        if (*after > 0) out.histories.push_back({two->after, *after});
+        if (*after < 1) out.tracks.push_back({two->before, 1 - *after});
+        if (*after > 0) out.tracks.push_back({two->after, *after});
     } else {
-        out.histories = {{track_frame, 1}};
+        out.tracks = {{track_frame, 1}};
     }
     if (plane && std::isfinite(out.texel.x) && std::isfinite(out.texel.y)) {
         const int u = wrapped_texel(out.texel.x, plane->source.width());

@@ -12,8 +12,8 @@
 #include "engine/core/texture_mapping.h"
 #include "engine/lighting/shading.h"
 #include "engine/motion/lattice_field.h"
-#include "engine/temporal/history_seam.h"
 #include "engine/temporal/temporal_mode.h"
+#include "engine/temporal/track_seam.h"
 
 namespace weft {
 
@@ -34,7 +34,7 @@ struct TwoTracks {
     int before = 0, after = 0;  ///< The reference frames.
     float share_after = 0;      ///< Weight of the later track without a seam.
     struct Seam {
-        HistorySeam labels;  ///< Labels of this frame only.
+        TrackSeam labels;  ///< Labels of this frame only.
         LatticeField before, after;
     };
     std::optional<Seam> seam;  ///< Set if the tracks disagree: each place shows one of them.
@@ -67,7 +67,7 @@ struct Provenance {
             int frame = 0;
             float weight = 0;
         };
-        std::vector<Share> histories;
+        std::vector<Share> tracks;
         float made_anew = 0;
         std::optional<int> seam;  ///< Cost of the seam; empty: no seam.
         /// The patches that the seam joins, lower number first. Empty if there is no seam, or no

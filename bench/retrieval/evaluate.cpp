@@ -323,9 +323,10 @@ Expected<EvaluationReport> evaluate_library(const std::string& library_path,
     WEFT_TRY(database, Database::open(library_path, false, true));
     WEFT_TRY(samples, stored_samples(*database));
     if (samples.empty()) {
-        return fail(ErrorCode::kUsage, "The texture library " + library_path +
-                                           " has no samples that this version measured. Run 'weft "
-                                           "texture train' first.");
+        return fail(
+            ErrorCode::kUsage,
+            "The texture library " + library_path + " has no samples that this version measured.",
+            "Run 'weft texture train' first.");
     }
     return options.folder.empty() ? ask_itself(samples, cancel, progress)
                                   : ask_photographs(*database, samples, options);

@@ -135,7 +135,7 @@ class ShotBench {
             return fail(static_cast<ErrorCode>(code), std::move(message));
         }
         if (!run.report.is_object() || !run.report.contains("frames"))
-            return fail(ErrorCode::kUnreadable, program + " printed no report. Give a weft.");
+            return fail(ErrorCode::kUnreadable, program + " printed no report.", "Give a weft.");
         frames_ = static_cast<double>(run.report["frames"].size());
         return run;
     }

@@ -70,14 +70,15 @@ class Study {
             return path;
         }));
         if (within.empty()) return {};
-        return fail(ErrorCode::kUsage, "The output folder " + options_.folder +
-                                           " holds an input of the study, " + within +
-                                           ". Choose another folder.");
+        return fail(ErrorCode::kUsage,
+                    "The output folder " + options_.folder + " holds an input of the study, " +
+                        within + ".",
+                    "Choose another folder.");
     }
 
     Status prepare() {
         if (options_.folder.empty())
-            return fail(ErrorCode::kUsage, "No output folder is set. Give one with -o.");
+            return fail(ErrorCode::kUsage, "No output folder is set.", "Give one with -o.");
         WEFT_CHECK_OK(check_study(options_));
         WEFT_TRY(fence, make_fence(result_.project, options_.limits));
         rule_.fence = fence;

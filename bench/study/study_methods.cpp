@@ -149,7 +149,8 @@ Status check_study(const StudyOptions& options) {
         std::string all;
         for (const std::string& k : known)
             all += (all.empty() ? "" : ", ") + k;
-        return fail(ErrorCode::kUsage, "Unknown method '" + name + "'. Choose among " + all + ".");
+        return fail(ErrorCode::kUsage, "Unknown method '" + name + "'.",
+                    "Choose among " + all + ".");
     }
     for (const double alpha : options.alphas) {
         if (!(alpha >= 0 && alpha <= 1))

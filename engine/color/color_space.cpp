@@ -71,11 +71,10 @@ class Chain final : public ColorTransform {
 };
 
 Error unknown_space(const std::string& name, const OcioConfig* config) {
-    std::string message =
-        "Unknown colour space '" + name + "'. Built in are srgb, linear and cineon";
-    message += config ? "; $OCIO has " + config->some_names() + "."
-                      : "; set $OCIO to an OpenColorIO config for others.";
-    return {ErrorCode::kUsage, message, {}};
+    std::string known = "Built in are srgb, linear and cineon";
+    known += config ? "; $OCIO has " + config->some_names() + "."
+                    : "; set $OCIO to an OpenColorIO config for others.";
+    return {ErrorCode::kUsage, "Unknown colour space '" + name + "'.", known, {}};
 }
 
 std::shared_ptr<const ColorTransform> between(const std::string& from, const std::string& to) {
@@ -92,7 +91,8 @@ Error no_meeting_place(const std::string& from, const std::string& to) {
     return {ErrorCode::kUsage,
             "The config of $OCIO has no linear Rec.709 space under a usual name such as "
             "'Linear Rec.709 (sRGB)' or 'lin_srgb', so '" +
-                from + "' cannot become '" + to + "'. Name spaces of the config for both.",
+                from + "' cannot become '" + to + "'.",
+            "Name spaces of the config for both.",
             {}};
 }
 

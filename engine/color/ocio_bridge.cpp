@@ -21,6 +21,13 @@ namespace ocio = OCIO_NAMESPACE;
 
 constexpr int kOcioBandRows = 16;
 
+// As a sentence, which a remedy follows; not all of OpenColorIO's end in a full stop.
+std::string reason_of(const ocio::Exception& error) {
+    std::string reason = error.what();
+    if (!reason.ends_with('.')) reason += '.';
+    return reason;
+}
+
 // Names of scene-linear Rec.709/sRGB in common configs: ACES 2.x and 1.x studio and CG configs and
 // their aliases, ACES 1.0-1.2, Blender's filmic, and the OpenColorIO samples.
 constexpr std::array kLinearNames{"Linear Rec.709 (sRGB)",
@@ -201,8 +208,10 @@ class Config final : public OcioConfig {
                 ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_LOSSLESS);
             return std::make_shared<OcioTransform>(cpu, cpu->isNoOp());
         } catch (const ocio::Exception& e) {
-            return fail(ErrorCode::kUsage, "OpenColorIO cannot convert '" + from + "' to '" + to +
-                                               "': " + e.what() + " Choose other spaces.");
+            return fail(
+                ErrorCode::kUsage,
+                "OpenColorIO cannot convert '" + from + "' to '" + to + "': " + reason_of(e),
+                "Choose other spaces.");
         }
     }
 
@@ -260,9 +269,10 @@ class Config final : public OcioConfig {
             out->shader = shader_of(processor, meeting.encoded);
             return out;
         } catch (const ocio::Exception& e) {
-            return fail(ErrorCode::kUsage, "OpenColorIO cannot show '" + name.view + "' of '" +
-                                               name.display + "': " + e.what() +
-                                               " Choose another view.");
+            return fail(ErrorCode::kUsage,
+                        "OpenColorIO cannot show '" + name.view + "' of '" + name.display +
+                            "': " + reason_of(e),
+                        "Choose another view.");
         }
     }
 
@@ -293,9 +303,10 @@ Expected<std::shared_ptr<const OcioConfig>> load_ocio_config() {
         return loaded;
     } catch (const ocio::Exception& e) {
         loaded.reset();
-        return fail(ErrorCode::kUnreadable, std::string("The OpenColorIO config ") + variable +
-                                                " (from $OCIO) cannot be read: " + e.what() +
-                                                " Correct $OCIO or unset it.");
+        return fail(ErrorCode::kUnreadable,
+                    std::string("The OpenColorIO config ") + variable +
+                        " (from $OCIO) cannot be read: " + reason_of(e),
+                    "Correct $OCIO or unset it.");
     }
 }
 

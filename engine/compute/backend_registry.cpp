@@ -50,8 +50,8 @@ Expected<BackendChoice> BackendRegistry::choose(const std::string& name) const {
     const auto entry = std::find_if(entries_.begin(), entries_.end(),
                                     [&](const BackendEntry& e) { return e.name == name; });
     if (entry == entries_.end()) {
-        return fail(ErrorCode::kUsage,
-                    "Unknown backend '" + name + "'. Choose auto, " + joined(names()) + ".");
+        return fail(ErrorCode::kUsage, "Unknown backend '" + name + "'.",
+                    "Choose auto, " + joined(names()) + ".");
     }
     auto made = entry->make();
     if (!made) {
@@ -59,9 +59,9 @@ Expected<BackendChoice> BackendRegistry::choose(const std::string& name) const {
         for (const auto& e : entries_) {
             if (e.name != name && e.make()) usable.push_back(e.name);
         }
-        return fail(ErrorCode::kNoBackend, made.error().text() + " Available: " + joined(usable) +
-                                               ". Choose one of these or auto" +
-                                               by({{setting::kBackend}}) + ".");
+        return fail(ErrorCode::kNoBackend,
+                    made.error().text() + " Available: " + joined(usable) + ".",
+                    "Choose one of these or auto" + by({{setting::kBackend}}) + ".");
     }
     choice.backend = *made;
     return choice;

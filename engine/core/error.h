@@ -27,14 +27,19 @@ enum class ErrorCode : int {
     return static_cast<int>(code);
 }
 
-/// What happened, to what, and what to do about it; `context` holds the callers' words, innermost
-/// first. A message is one line of sentence case without a final line break.
+/// What happened to what, and what to do about it, each on one line without a line break; `context`
+/// holds the callers' words, innermost first. A message that ends in a full stop is followed by a
+/// remedy of whole sentences; one without by a clause ("… is not a number", "give each key its
+/// frame"). The remedy is empty where there is nothing to do.
 struct Error {
     ErrorCode code = ErrorCode::kRenderFailed;
     std::string message;
+    std::string remedy;
     std::vector<std::string> context;
 
-    /// "context: message" in one line, outermost context first.
+    /// Message and remedy, "It is there. Choose another." or "it is not a number; remove it".
+    [[nodiscard]] std::string sentence() const;
+    /// "context: sentence" in one line, outermost context first.
     [[nodiscard]] std::string text() const;
 };
 
@@ -42,8 +47,9 @@ template <class T>
 using Expected = tl::expected<T, Error>;
 using Status = Expected<void>;
 
-[[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
-    return tl::unexpected<Error>(Error{code, std::move(message), {}});
+[[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string message,
+                                                std::string remedy = {}) {
+    return tl::unexpected<Error>(Error{code, std::move(message), std::move(remedy), {}});
 }
 
 /// The same error with one more context in front.

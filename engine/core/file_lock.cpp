@@ -50,8 +50,9 @@ tl::unexpected<Error> held_too_long(const std::string& path, std::chrono::millis
     const auto seconds = std::chrono::ceil<std::chrono::seconds>(wait).count();
     return fail(ErrorCode::kUnreadable,
                 path + " is being written by another program, for more than " +
-                    std::to_string(seconds) + " s. Wait until that is done and try again; 'fuser " +
-                    path + "' lists the programs that have it open.");
+                    std::to_string(seconds) + " s.",
+                "Wait until that is done and try again; 'fuser " + path +
+                    "' lists the programs that have it open.");
 }
 
 }  // namespace

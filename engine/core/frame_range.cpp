@@ -44,20 +44,19 @@ Expected<std::vector<int>> parse_frame_list(std::string_view text) {
         const std::size_t comma = text.find(',');
         Span span{};
         if (!parse_span(text.substr(0, comma), span)) {
-            return fail(ErrorCode::kUsage,
-                        "Cannot read the frames '" + whole +
-                            "'. Write them like 1-40, 1-100x2, -5--1 or 1,4,9-12.");
+            return fail(ErrorCode::kUsage, "Cannot read the frames '" + whole + "'.",
+                        "Write them like 1-40, 1-100x2, -5--1 or 1,4,9-12.");
         }
         if (!is_frame_number(span.first) || !is_frame_number(span.last)) {
-            return fail(ErrorCode::kUsage, "The frames '" + whole +
-                                               "' go beyond -100000000 to 100000000. Renumber the "
-                                               "shot, or correct the list.");
+            return fail(ErrorCode::kUsage,
+                        "The frames '" + whole + "' go beyond -100000000 to 100000000.",
+                        "Renumber the shot, or correct the list.");
         }
         const auto count = (static_cast<long long>(span.last) - span.first) / span.step + 1;
         named += count;
         if (named > kMaxFrames) {
-            return fail(ErrorCode::kUsage,
-                        "'" + whole + "' has more than a million frames. Shorten the list.");
+            return fail(ErrorCode::kUsage, "'" + whole + "' has more than a million frames.",
+                        "Shorten the list.");
         }
         for (long long f = span.first; f <= span.last; f += span.step) {
             frames.insert(static_cast<int>(f));

@@ -38,8 +38,9 @@ Status check_points(const GridWarp& warp, const std::vector<WarpPoint>& points,
                     const std::string& where) {
     if (points.size() != warp.count()) {
         return fail(ErrorCode::kUsage,
-                    fmt::format("a grid of {} × {} patches has {} points, not {}{}; give as many",
-                                warp.columns, warp.rows, warp.count(), points.size(), where));
+                    fmt::format("a grid of {} × {} patches has {} points, not {}{}", warp.columns,
+                                warp.rows, warp.count(), points.size(), where),
+                    "give as many");
     }
     for (std::size_t k = 0; k < points.size(); ++k) {
         bool fits = is_usable(points[k].at);
@@ -47,9 +48,9 @@ Status check_points(const GridWarp& warp, const std::vector<WarpPoint>& points,
             fits = fits && is_usable((points[k].*handle).value_or(dvec2(0, 0)));
         if (fits) continue;
         return fail(ErrorCode::kUsage,
-                    fmt::format("point {}{} is farther away than {} px, or not a number; move it "
-                                "onto the plate",
-                                k + 1, where, GridWarp::kMostPx));
+                    fmt::format("point {}{} is farther away than {} px, or not a number", k + 1,
+                                where, GridWarp::kMostPx),
+                    "move it onto the plate");
     }
     return {};
 }
@@ -59,10 +60,10 @@ Status folds(const GridWarp& warp, dvec2 grid, const std::string& where) {
         return std::min(static_cast<int>(along), patches - 1) + 1;
     };
     return fail(ErrorCode::kUsage,
-                fmt::format("the grid folds at column {}, row {}{}; move the points or handles "
-                            "around it apart{}",
-                            patch(grid.x, warp.columns), patch(grid.y, warp.rows), where,
-                            warp.falloff_px > 0 ? ", or raise the fall-off" : ""));
+                fmt::format("the grid folds at column {}, row {}{}", patch(grid.x, warp.columns),
+                            patch(grid.y, warp.rows), where),
+                std::string("move the points or handles around it apart") +
+                    (warp.falloff_px > 0 ? ", or raise the fall-off" : ""));
 }
 
 Status check_folds(const GridWarp& warp) {
@@ -200,8 +201,8 @@ Status check_grid_warp(const GridWarp& warp) {
     if (!std::all_of(warp.corners.begin(), warp.corners.end(), is_usable) ||
         !is_convex<double>(warp.corners)) {
         return fail(ErrorCode::kUsage,
-                    "the corners of the grid do not go around a convex quadrilateral; give top "
-                    "left, top right, bottom right, bottom left");
+                    "the corners of the grid do not go around a convex quadrilateral",
+                    "give top left, top right, bottom right, bottom left");
     }
     if (warp.keys.size() > GridWarp::kMostKeys)
         return fail(ErrorCode::kUsage,

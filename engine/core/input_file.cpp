@@ -22,7 +22,7 @@ std::string name_of(const std::string& path, std::string_view what) {
 
 tl::unexpected<Error> refused(const std::string& name, const std::string& reason,
                               const std::string& advice) {
-    return fail(ErrorCode::kUnreadable, name + " cannot be read: " + reason + ". " + advice);
+    return fail(ErrorCode::kUnreadable, name + " cannot be read: " + reason + ".", advice);
 }
 
 tl::unexpected<Error> system_fault(const std::string& name, int number) {
@@ -75,7 +75,8 @@ Expected<std::string> read_all(const std::string& name, std::uint64_t limit_byte
             text.append(block.data(), count);
         }
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::kNoSpace, name + " does not fit into memory. Close other programs.");
+        return fail(ErrorCode::kNoSpace, name + " does not fit into memory.",
+                    "Close other programs.");
     }
 }
 

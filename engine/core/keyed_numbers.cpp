@@ -11,8 +11,8 @@ namespace weft {
 namespace {
 
 tl::unexpected<Error> not_a_number(std::string_view text) {
-    return fail(ErrorCode::kUsage,
-                quoted(text) + " is not a number. Write each key like 12:0.5, frame and value.");
+    return fail(ErrorCode::kUsage, quoted(text) + " is not a number.",
+                "Write each key like 12:0.5, frame and value.");
 }
 
 Expected<std::vector<double>> numbers_of(std::string_view text) {
@@ -102,8 +102,8 @@ std::string_view name_of(KeyInterpolation interpolation) {
 Expected<KeyInterpolation> parse_interpolation(std::string_view name) {
     for (const auto& [known, called] : kKeyInterpolations)
         if (called == name) return known;
-    return fail(ErrorCode::kUsage,
-                quoted(name.substr(0, 60)) + " is no interpolation; use linear, smooth or hold");
+    return fail(ErrorCode::kUsage, quoted(name.substr(0, 60)) + " is no interpolation",
+                "use linear, smooth or hold");
 }
 
 bool KeyedNumbers::has(int frame) const {

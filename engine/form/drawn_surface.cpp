@@ -126,8 +126,8 @@ Expected<DrawnCylinder> cylinder_from_outlines(const Outlines& o) {
     const Vector a = between_outlines(o, o.at_a);
     if (std::abs(glm::dot(axis, unit(o.at_a + o.at_b))) > kMostPointing) {
         return fail(ErrorCode::kUsage,
-                    "The cylinder's radii differ so much that it would point at the camera. Make "
-                    "them more alike, or draw a cone");
+                    "The cylinder's radii differ so much that it would point at the camera.",
+                    "Make them more alike, or draw a cone");
     }
     return DrawnCylinder{a, axis, glm::dot(o.left, a)};
 }
@@ -148,8 +148,8 @@ Expected<Axis> tilted_axis(const Outlines& o, double tilt_deg) {
     const double square = m * m - sine * sine, linear = m * m - c * sine * sine;
     const double under = linear * linear - square * square;
     if (!(under >= 0) || !(square > 0)) {
-        return fail(ErrorCode::kUsage,
-                    "An axis as long as this cannot be tilted as much. Tilt it less");
+        return fail(ErrorCode::kUsage, "An axis as long as this cannot be tilted as much.",
+                    "Tilt it less");
     }
     const double root = std::sqrt(under);
     const double s = (linear + (tilt_deg >= 0 ? root : -root)) / square;
@@ -178,8 +178,8 @@ Expected<DrawnSurface> round_surface(const FormGuide& shape, DrawnSurface out) {
     constexpr double kMostSine = 0.98;
     if (std::abs(sine) > kMostSine) {
         return fail(ErrorCode::kUsage,
-                    "The cone is wider than it is long, so that its side is not seen. Draw its "
-                    "axis longer, or tilt it less");
+                    "The cone is wider than it is long, so that its side is not seen.",
+                    "Draw its axis longer, or tilt it less");
     }
     const Vector apex = axis.a - along * (a / (b - a));
     out.body = DrawnCone{apex, (sine > 0 ? 1.0 : -1.0) * along / long_, 1 - sine * sine};
@@ -278,20 +278,19 @@ Expected<DrawnSurface> drawn_plane(const std::vector<FormGuide>& strokes,
             for (const PictureLine& other : lines)
                 if (cross_each_other(line, other))
                     return fail(ErrorCode::kUsage,
-                                "Parallel strokes of one group cross each other. Draw them along "
-                                "lines that are parallel on the surface");
+                                "Parallel strokes of one group cross each other.",
+                                "Draw them along lines that are parallel on the surface");
             lines.push_back(line);
         }
     }
     if (groups.size() > 2)
-        return fail(ErrorCode::kUsage,
-                    "There are more than two groups of parallel strokes; a plane has two, at "
-                    "right angles to each other");
+        return fail(ErrorCode::kUsage, "There are more than two groups of parallel strokes",
+                    "a plane has two, at right angles to each other");
     groups.resize(2);
     if (groups[0].size() + groups[1].size() < 2)
-        return fail(ErrorCode::kUsage,
-                    "One parallel stroke does not show a plane. Draw a second line that is "
-                    "parallel to it on the surface, or at right angles to it");
+        return fail(
+            ErrorCode::kUsage, "One parallel stroke does not show a plane.",
+            "Draw a second line that is parallel to it on the surface, or at right angles to it");
     return plane_surface(plane_from_lines(groups[0], groups[1], camera.picture, tangent_of(camera)),
                          camera.picture);
 }

@@ -61,12 +61,12 @@ Status check_round(const FormGuide& guide) {
         return {};
     }
     if (length_between(guide.place(0), guide.place(2)) < kLeast_px)
-        return fail(ErrorCode::kUsage,
-                    "The " + name + " collapses: its axis is shorter than 1 px. Draw it longer");
+        return fail(ErrorCode::kUsage, "The " + name + " collapses: its axis is shorter than 1 px.",
+                    "Draw it longer");
     const double least = guide.kind == FormGuideKind::kCone ? 0 : kLeast_px;
     if (std::min(v[4], v[5]) < least || std::max(v[4], v[5]) < kLeast_px)
-        return fail(ErrorCode::kUsage,
-                    "The " + name + " collapses: a radius is below 1 px. Draw it wider");
+        return fail(ErrorCode::kUsage, "The " + name + " collapses: a radius is below 1 px.",
+                    "Draw it wider");
     if (v.size() > 6 && std::abs(v[6]) > kMostTilt_deg)
         return fail(ErrorCode::kUsage, "The tilt must be from -80 to 80 degrees");
     return {};
@@ -89,9 +89,10 @@ Status check_form_guide(const FormGuide& guide) {
             const Quad<double> corners{guide.place(0), guide.place(2), guide.place(4),
                                        guide.place(6)};
             if (!is_convex(corners))
-                return fail(ErrorCode::kUsage,
-                            "The plane collapses: its corners do not go round a convex "
-                            "quadrilateral. Give them in order around it");
+                return fail(
+                    ErrorCode::kUsage,
+                    "The plane collapses: its corners do not go round a convex quadrilateral.",
+                    "Give them in order around it");
             for (std::size_t k = 0; k < 4; ++k)
                 if (length_between(corners[k], corners[(k + 1) % 4]) < kLeast_px)
                     return fail(ErrorCode::kUsage,
@@ -103,8 +104,8 @@ Status check_form_guide(const FormGuide& guide) {
         case FormGuideKind::kCut:
             for (std::size_t k = 0; k < count; k += 4)
                 if (length_between(guide.place(k), guide.place(k + 2)) < kLeast_px)
-                    return fail(ErrorCode::kUsage,
-                                "A stroke is shorter than 1 px. Draw it along the surface");
+                    return fail(ErrorCode::kUsage, "A stroke is shorter than 1 px.",
+                                "Draw it along the surface");
             return {};
         default:
             return check_round(guide);

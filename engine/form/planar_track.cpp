@@ -63,7 +63,8 @@ PlanarTracker::PlanarTracker(std::vector<Vec2> places) : places_(std::move(place
 Status PlanarTracker::add(int frame, const LatticeField& there_from_here) {
     constexpr std::size_t kLeast = 8;
     if (places_.size() < kLeast || !is_convex(box_))
-        return fail(ErrorCode::kUsage, "The shape is too small to be followed. Draw a larger one.");
+        return fail(ErrorCode::kUsage, "The shape is too small to be followed.",
+                    "Draw a larger one.");
     // The fit wants places about 1 from the origin.
     const Eigen::Vector2d middle(0.5 * (box_[0].x + box_[2].x), 0.5 * (box_[0].y + box_[2].y));
     const double unit = 0.5 * std::max(box_[2].x - box_[0].x, box_[2].y - box_[0].y);

@@ -13,8 +13,8 @@ Expected<Lamp> parse_lamp(std::string_view text) {
     const auto* const info = std::find_if(kLampKinds.begin(), kLampKinds.end(),
                                           [&](const LampKindInfo& k) { return k.name == name; });
     if (info == kLampKinds.end()) {
-        return fail(ErrorCode::kUsage,
-                    "Unknown lamp " + quoted(name) + ". Use point, directional or gradient");
+        return fail(ErrorCode::kUsage, "Unknown lamp " + quoted(name) + ".",
+                    "Use point, directional or gradient");
     }
     std::vector<NumberKey> keys;
     const auto parts = split(text.substr(space), '|');

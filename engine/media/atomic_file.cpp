@@ -98,7 +98,7 @@ Status check_target(int folder, const std::string& name, const std::string& real
     }
     if (S_ISDIR(status.st_mode)) return tl::unexpected(cannot_be_written(shown, EISDIR));
     if (!S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode)) {
-        return fail(ErrorCode::kUsage, shown + " is a device or a pipe. Give a file name.");
+        return fail(ErrorCode::kUsage, shown + " is a device or a pipe.", "Give a file name.");
     }
     if (rule.existing == Existing::kRefuse) return tl::unexpected(exists_already(shown));
     return {};
@@ -123,34 +123,38 @@ Error system_error(const std::string& path, std::string_view doing, int error_nu
     std::string message = path + " " + std::string(doing) + ": ";
     switch (error_number) {
         case ENOSPC:
-            return {
-                ErrorCode::kNoSpace, message + "the disk is full. Free some space and go on.", {}};
+            return {ErrorCode::kNoSpace,
+                    message + "the disk is full.",
+                    "Free some space and go on.",
+                    {}};
         case EDQUOT:
             return {ErrorCode::kNoSpace,
-                    message + "the disk quota is used up. Free some space and go on.",
+                    message + "the disk quota is used up.",
+                    "Free some space and go on.",
                     {}};
         case EFBIG:
             return {ErrorCode::kNoSpace,
-                    message +
-                        "the file would be larger than the system allows. Raise the limit "
-                        "(ulimit -f) or write elsewhere.",
+                    message + "the file would be larger than the system allows.",
+                    "Raise the limit (ulimit -f) or write elsewhere.",
                     {}};
         case ENOENT:
         case ENOTDIR:
             return {ErrorCode::kUnreadable,
-                    message + "the folder does not exist. Create it first.",
+                    message + "the folder does not exist.",
+                    "Create it first.",
                     {}};
         case EACCES:
         case EPERM:
         case EROFS:
             return {ErrorCode::kUnreadable,
-                    message + "no permission. Check the permissions of the file and its folder.",
+                    message + "no permission.",
+                    "Check the permissions of the file and its folder.",
                     {}};
         case EISDIR:
-            return {ErrorCode::kUnreadable, message + "it is a folder. Give a file name.", {}};
+            return {ErrorCode::kUnreadable, message + "it is a folder.", "Give a file name.", {}};
         default:
             message += std::generic_category().message(error_number);
-            return {ErrorCode::kUnreadable, message + ". Check the disk and the path.", {}};
+            return {ErrorCode::kUnreadable, message + ".", "Check the disk and the path.", {}};
     }
 }
 
@@ -298,8 +302,9 @@ Status make_folder(const std::string& folder, const WriteRule& rule) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (!error) return {};
-    return fail(ErrorCode::kUnreadable, "The folder " + folder + " cannot be created: " +
-                                            error.message() + ". Choose another folder.");
+    return fail(ErrorCode::kUnreadable,
+                "The folder " + folder + " cannot be created: " + error.message() + ".",
+                "Choose another folder.");
 }
 
 Status make_folder_of(const std::string& path, const WriteRule& rule) {

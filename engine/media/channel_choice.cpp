@@ -23,11 +23,11 @@ std::string last_word(const std::string& layer) {
     return lower_case(layer.substr(layer.rfind('.') + 1));
 }
 
-// Renderers' names of the finished picture: Nuke, Arnold, V-Ray, Blender, RenderMan.
+// Renderers' names of the finished picture: Nuke, Arnold, V-Ray, Blender, RenderMan, Karma.
 bool names_the_picture(const std::string& layer) {
-    static const std::set<std::string> kNames{"rgba",      "rgb",           "beauty",
-                                              "combined",  "main",          "color",
-                                              "composite", "effectsresult", "rgb_color"};
+    static const std::set<std::string> kNames{"rgba",      "rgb",   "beauty",    "combined",
+                                              "main",      "color", "composite", "effectsresult",
+                                              "rgb_color", "c"};
     return kNames.contains(last_word(layer));
 }
 
@@ -66,8 +66,14 @@ std::optional<ChannelChoice> rgb_of(const PartNames& part, int number, const std
     return choice_of(number, {r, g, b}, find_channel(part, prefix, {"A", "alpha"}));
 }
 
+// OpenEXR's luminance and chroma: Y alone is the picture without its colours.
+bool has_chroma(const PartNames& part, const std::string& prefix) {
+    return find_channel(part, prefix, {"RY"}) >= 0 && find_channel(part, prefix, {"BY"}) >= 0;
+}
+
 std::optional<ChannelChoice> grey_of(const PartNames& part, int number, const std::string& prefix,
                                      bool depth_too) {
+    if (has_chroma(part, prefix)) return std::nullopt;
     int y = find_channel(part, prefix, {"Y", "I", "L", "V"});
     if (y < 0 && depth_too) y = find_channel(part, prefix, {"Z"});
     if (y < 0) return std::nullopt;
@@ -192,6 +198,14 @@ Error nothing_chosen(const std::string& path, const std::vector<PartNames>& part
     if (deep) {
         return unreadable(path, "it holds deep samples, not a flat picture",
                           "Flatten it first (DeepToImage in Nuke).");
+    }
+    const std::string prefix = request.layer.empty() ? std::string() : request.layer + ".";
+    const bool chroma = std::any_of(parts.begin(), parts.end(), [&](const PartNames& part) {
+        return has_chroma(part, prefix);
+    });
+    if (chroma) {
+        return unreadable(path, "it holds luminance and chroma (Y, RY, BY) instead of colours",
+                          "Write it with the channels R, G and B.");
     }
     if (!request.layer.empty()) {
         return unreadable(path, "it has no layer '" + request.layer + "'",

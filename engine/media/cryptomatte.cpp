@@ -74,7 +74,8 @@ bool ends_with(const CryptoLayer& layer, std::string_view where) {
 std::pair<std::string_view, std::string_view> split_layer(const std::vector<CryptoLayer>& layers,
                                                           std::string_view name) {
     const std::size_t slash = name.find('/');
-    if (slash == std::string_view::npos) return {{}, name};
+    // Names that begin with a slash are paths: "/obj/geo1" of Houdini, "/World/Chair" of USD.
+    if (slash == std::string_view::npos || slash == 0) return {{}, name};
     const std::string_view where = name.substr(0, slash);
     const bool known = std::any_of(layers.begin(), layers.end(), [&](const CryptoLayer& layer) {
         return ends_with(layer, where);
@@ -131,8 +132,16 @@ Error no_such_name(const std::string& path, std::size_t frames, const std::strin
     }
     const std::string others =
         frames > 1 ? ", nor has that of any other of " + std::to_string(frames) + " frames" : "";
-    return unreadable(path, "its Cryptomatte has no '" + shown_name(name) + "'" + others,
-                      "It has: " + list + (shown > kShown ? ", …" : "") + ".");
+    const std::string none = "its Cryptomatte has no '" + shown_name(name) + "'" + others;
+    if (list.empty()) {
+        const auto manifests = cryptomatte_manifest_files(path);
+        const std::string where = manifests.empty() ? std::string("in its header")
+                                                    : "in " + manifests.front() + " beside it";
+        return unreadable(path, none,
+                          "It lists no names (there is no manifest " + where +
+                              "): give the object's whole name, as the scene has it.");
+    }
+    return unreadable(path, none, "It has: " + list + (shown > kShown ? ", …" : "") + ".");
 }
 
 }  // namespace
@@ -275,8 +284,9 @@ Expected<CryptoObject> pick_cryptomatte(const std::string& path, int x, int y) {
         if (x < 0 || y < 0 || x >= size.width || y >= size.height) {
             return fail(ErrorCode::kUsage,
                         "The pixel " + std::to_string(x) + "," + std::to_string(y) +
-                            " is outside " + path + ". Give one inside its " +
-                            std::to_string(size.width) + " x " + std::to_string(size.height) + ".");
+                            " is outside " + path + ".",
+                        "Give one inside its " + std::to_string(size.width) + " x " +
+                            std::to_string(size.height) + ".");
         }
         CryptoObject best{layer.name, "", 0, 0};
         const std::size_t count = 2 * layer.ranks.size();

@@ -101,7 +101,8 @@ Error cannot_encode(const std::string& path, const std::string& reason) {
     std::string first_line = reason.substr(0, reason.find('\n'));
     if (first_line.empty()) first_line = "the encoder gave no reason";
     return {ErrorCode::kUnreadable,
-            path + " cannot be written: " + first_line + ". Choose another format.",
+            path + " cannot be written: " + first_line + ".",
+            "Choose another format.",
             {}};
 }
 

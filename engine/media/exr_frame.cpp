@@ -27,9 +27,9 @@ using OIIO::TypeDesc;
 Error cannot_write(const std::string& path, std::string reason) {
     reason = reason.substr(0, reason.find('\n'));
     return {ErrorCode::kUnreadable,
-            path +
-                " cannot be written: " + (reason.empty() ? "the encoder gave no reason" : reason) +
-                ". Choose another format or compression.",
+            path + " cannot be written: " +
+                (reason.empty() ? "the encoder gave no reason" : reason) + ".",
+            "Choose another format or compression.",
             {}};
 }
 
@@ -212,9 +212,10 @@ Status check_layer_names(const std::string& path, const ExrPart& part, const Exr
             if (std::find(layer.channels.begin(), layer.channels.end(), name) ==
                 layer.channels.end())
                 continue;
-            return fail(ErrorCode::kUsage, path + " cannot hold both the picture and a layer as " +
-                                               name + ". Write the layers to separate files" +
-                                               by({{setting::kLayersOutput}}) + ".");
+            return fail(
+                ErrorCode::kUsage,
+                path + " cannot hold both the picture and a layer as " + name + ".",
+                "Write the layers to separate files" + by({{setting::kLayersOutput}}) + ".");
         }
     }
     return {};

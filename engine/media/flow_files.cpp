@@ -78,8 +78,8 @@ Expected<FlowField> read_kitti(const std::string& path, Size expected) {
 Expected<FlowField> read_flow(const std::string& path, Size expected) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) {
-        return fail(ErrorCode::kMissingFrames,
-                    "Motion file " + path + " not found. Supply it, or leave the frame out.");
+        return fail(ErrorCode::kMissingFrames, "Motion file " + path + " not found.",
+                    "Supply it, or leave the frame out.");
     }
     if (path.ends_with(".flo") || path.ends_with(".FLO")) return read_flo(path, expected);
     return read_kitti(path, expected);

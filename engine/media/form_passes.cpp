@@ -60,6 +60,36 @@ Expected<ImageF3> read_vectors(const std::string& path, const PassKind& kind,
     return out;
 }
 
+// Some renderers write the codes (n + 1) / 2 of a normal map into floats, too: then 2 n − 1 has the
+// length 1 and n has not. Grey is no normal.
+bool are_codes(const ImageF3& normals) {
+    constexpr float kClose = 0.02f;
+    std::size_t known = 0, codes = 0, lengths = 0;
+    const std::size_t count = normals.size_bytes() / sizeof(float);
+    for (std::size_t i = 0; i < count; i += 3) {
+        const float* n = normals.data() + i;
+        float own = 0, decoded = 0;
+        for (int c = 0; c < 3; ++c)
+            own += n[c] * n[c], decoded += (2 * n[c] - 1) * (2 * n[c] - 1);
+        if (!(own > kClose) || !(decoded > kClose)) continue;
+        ++known;
+        codes += std::abs(std::sqrt(decoded) - 1) < kClose;
+        lengths += std::abs(std::sqrt(own) - 1) < kClose;
+    }
+    return 10 * codes > 9 * known && 2 * lengths < known;
+}
+
+void decode_normals(ImageF3& normals) {
+    float* const begin = normals.data();
+    const std::size_t count = normals.size_bytes() / sizeof(float);
+    for (std::size_t i = 0; i < count; i += 3) {
+        float* n = begin + i;
+        if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f) continue;
+        for (int c = 0; c < 3; ++c)
+            n[c] = 2 * n[c] - 1;
+    }
+}
+
 // Where a depth pass has no layer of its own: a channel Z beside the picture, or the first channel
 // of a file of its own.
 std::optional<FoundPass> find_depth_beside(const std::vector<PassLayer>& layers) {
@@ -132,7 +162,11 @@ Expected<ImageF2> read_st_layer(const std::string& path, Size expected) {
 
 Expected<ImageF3> read_normals(const std::string& path, const std::string& layer, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
-    if (is_exr_file(path)) return read_vectors(path, kNormals, layer, expected);
+    if (is_exr_file(path)) {
+        WEFT_TRY(vectors, read_vectors(path, kNormals, layer, expected));
+        if (are_codes(vectors)) decode_normals(vectors);
+        return vectors;
+    }
     WEFT_TRY(picture, read_image(path, layer));
     if (picture.depth != PixelDepth::kU8 && picture.depth != PixelDepth::kU16) {
         return tl::unexpected(unreadable(path, "a normal pass in floating point is expected as EXR",

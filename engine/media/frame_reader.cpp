@@ -23,8 +23,8 @@ Expected<std::shared_ptr<const FrameReader>> open_plate(const std::string& path,
     if (!exists) {
         WEFT_TRY(pattern, SequencePattern::parse(path));
         if (!pattern.is_single()) return open_still_sequence(pattern, options);
-        return fail(ErrorCode::kMissingFrames,
-                    path + " not found. Give a pattern such as plate.####.exr or a movie.");
+        return fail(ErrorCode::kMissingFrames, path + " not found.",
+                    "Give a pattern such as plate.####.exr or a movie.");
     }
     if (!has_picture_extension(path)) {
         return tl::unexpected(unreadable(path, "it is neither a picture nor a movie by its name",

@@ -85,7 +85,8 @@ const char* words(PixelDepth depth) {
 
 Error unknown_extension(const std::string& path) {
     return {ErrorCode::kUsage,
-            path + ": unknown kind of file. Use .png, .jpg, .tif, .exr or .dpx.",
+            path + ": unknown kind of file.",
+            "Use .png, .jpg, .tif, .exr or .dpx.",
             {}};
 }
 
@@ -104,9 +105,8 @@ Status check_numbers(const std::string& path, const WriteOptions& options) {
         std::find(kCompressions.begin(), kCompressions.end(), options.exr_compression) ==
             kCompressions.end()) {
         return fail(ErrorCode::kUsage,
-                    path + ": unknown EXR compression '" + options.exr_compression +
-                        "'. Use auto, none, rle, zip, zips, piz, pxr24, b44, b44a, "
-                        "dwaa or dwab.");
+                    path + ": unknown EXR compression '" + options.exr_compression + "'.",
+                    "Use auto, none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa or dwab.");
     }
     return {};
 }
@@ -225,9 +225,9 @@ Status check_format(const std::string& path, const WriteOptions& options) {
     if (format == Format::kUnknown) return tl::unexpected(unknown_extension(path));
     const FormatFacts facts = facts_of(format);
     if (!holds(facts, options.depth)) {
-        return fail(ErrorCode::kUsage, path + ": " + facts.name + " cannot hold " +
-                                           words(options.depth) + ". Choose " + facts.depths +
-                                           ", or another file format.");
+        return fail(ErrorCode::kUsage,
+                    path + ": " + facts.name + " cannot hold " + words(options.depth) + ".",
+                    std::string("Choose ") + facts.depths + ", or another file format.");
     }
     return check_numbers(path, options);
 }
@@ -255,7 +255,7 @@ Status write_matte(const std::string& path, ViewU8x1 matte, const WriteRule& rul
     const Format format = format_of(path);
     if (format == Format::kUnknown) return tl::unexpected(unknown_extension(path));
     if (format != Format::kPng && format != Format::kTiff) {
-        return fail(ErrorCode::kUsage, path + ": mattes are PNG or TIFF. Use .png or .tif.");
+        return fail(ErrorCode::kUsage, path + ": mattes are PNG or TIFF.", "Use .png or .tif.");
     }
     if (matte.empty()) return fail(ErrorCode::kUsage, path + ": the matte is empty (0 pixels).");
     std::vector<std::uint8_t> codes;

@@ -148,8 +148,8 @@ Error no_channel(const std::string& path, const Raster& raster, const std::strin
 Status check_picture_exists(const std::string& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0) return {};
-    return fail(ErrorCode::kMissingFrames,
-                "File " + path + " not found. Supply it, or correct the name.");
+    return fail(ErrorCode::kMissingFrames, "File " + path + " not found.",
+                "Supply it, or correct the name.");
 }
 
 Expected<PlateFrame> read_image(const std::string& path, const std::string& layer) {
@@ -181,9 +181,8 @@ std::optional<FoundPass> find_ids(const std::string& path, const std::vector<std
 Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, Size expected) {
     WEFT_CHECK_OK(check_picture_exists(path));
     if (has_movie_extension(path)) {
-        return fail(ErrorCode::kUsage, path +
-                                           " is a movie, and one picture is needed here. Write the "
-                                           "frame as a picture, such as matte.png, and give that.");
+        return fail(ErrorCode::kUsage, path + " is a movie, and one picture is needed here.",
+                    "Write the frame as a picture, such as matte.png, and give that.");
     }
     if (!select.crypto.empty()) {
         WEFT_TRY(objects, read_cryptomatte(path, select.crypto, expected));
@@ -210,11 +209,12 @@ Expected<Matte> read_matte(const std::string& path, const MatteSelect& select, S
         // alpha only marks where there is any object.
         const int ids = select.channel.empty() ? 0 : source.channel;
         if (!has_whole_numbers(raster, ids)) {
-            return fail(ErrorCode::kUsage,
-                        path +
-                            " has no integer ids (its samples are fractions), so no value can be "
-                            "picked. Name the channel with the ids" +
-                            by({{setting::kMatteChannel}}) + ", or leave the matte value out.");
+            return fail(
+                ErrorCode::kUsage,
+                path +
+                    " has no integer ids (its samples are fractions), so no value can be picked.",
+                "Name the channel with the ids" + by({{setting::kMatteChannel}}) +
+                    ", or leave the matte value out.");
         }
         matte = equal_to(raster, ids, *select.value);
     } else {

@@ -37,9 +37,8 @@ Expected<Hash128> MatteFiles::stamp(int frame) const {
 Status MatteFiles::check_select(const MatteSelect& select) const {
     if (!movie_ || (!select.value && select.crypto.empty())) return {};
     return fail(ErrorCode::kUsage,
-                pattern_.text() +
-                    " is a movie, which holds no ids and no Cryptomatte objects. Give the "
-                    "renderer's pictures, or use the movie as it is, without a value" +
+                pattern_.text() + " is a movie, which holds no ids and no Cryptomatte objects.",
+                "Give the renderer's pictures, or use the movie as it is, without a value" +
                     by({{setting::kMatteValue}}) + ".");
 }
 

@@ -8,6 +8,7 @@
 #include "engine/core/setting.h"
 #include "engine/media/image_files.h"
 #include "engine/media/matte_code.h"
+#include "engine/media/matte_look.h"
 #include "engine/media/plates.h"
 #include "engine/media/raster_errors.h"
 
@@ -17,6 +18,7 @@ namespace {
 constexpr std::size_t kMostOpen = 32;
 constexpr std::size_t kKept_bytes = std::size_t{64} << 20;
 constexpr std::size_t kMostKept = 512;
+constexpr int kMovieLooks = 24;  // of a movie, spread over all of it
 
 // A surface is followed both ways from its reference frame, region by region, and every frame is
 // rendered after that: a movie is read many times.
@@ -81,8 +83,7 @@ Expected<std::string> MatteMovie::default_channel() const {
         const std::lock_guard lock(mutex_);
         if (!default_channel_.empty()) return default_channel_;
     }
-    constexpr int kMostLooks = 24;
-    const int looks = std::min(frame_count(), kMostLooks);
+    const int looks = std::min(frame_count(), kMovieLooks);
     std::string channel = "Y";
     for (int k = 0; k < looks && channel == "Y"; ++k) {
         WEFT_TRY(frame, movie_->read(k * frame_count() / looks));
@@ -112,10 +113,10 @@ void MatteMovie::keep(Kept matte) const {
 
 Expected<Matte> MatteMovie::read(int index, const std::string& channel) const {
     if (index < 0 || index >= frame_count()) {
-        return fail(ErrorCode::kMissingFrames, "The matte " + path_ + " has " +
-                                                   std::to_string(frame_count()) +
-                                                   " frames, and none for this one. Give a movie "
-                                                   "that is as long as the plate.");
+        return fail(ErrorCode::kMissingFrames,
+                    "The matte " + path_ + " has " + std::to_string(frame_count()) +
+                        " frames, and none for this one.",
+                    "Give a movie that is as long as the plate.");
     }
     std::string from = channel;
     if (from.empty()) {
@@ -135,6 +136,19 @@ Expected<Matte> MatteMovie::read(int index, const std::string& channel) const {
     Matte matte = coverage_in(frame, from);
     keep({index, from, matte});
     return matte;
+}
+
+Expected<std::string> MatteMovie::judge() const {
+    WEFT_TRY(channel, default_channel());
+    const int looks = std::min(frame_count(), kMovieLooks);
+    MatteJudge judge;
+    for (int k = 0; k < looks && !judge.is_satisfied(); ++k) {
+        WEFT_TRY(frame, movie_->read(k * frame_count() / looks));
+        if (channel != "A") frame.alpha = {};
+        judge.add(look_at_matte(frame.rgb, frame.alpha));
+    }
+    WEFT_CHECK_OK(judge.check(path_));
+    return judge.warning(path_);
 }
 
 }  // namespace weft

@@ -33,6 +33,9 @@ class MatteMovie {
     /// Errors: MissingFrames beyond the movie; Unreadable if it has no such channel or the frame
     /// cannot be decoded.
     [[nodiscard]] Expected<Matte> read(int index, const std::string& channel) const;
+    /// Judges up to 24 frames by the default channel until one satisfies. Returns the warning.
+    /// Errors: as MatteJudge::check(); Unreadable for a frame that cannot be decoded.
+    [[nodiscard]] Expected<std::string> judge() const;
 
   private:
     struct Kept {

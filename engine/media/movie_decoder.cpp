@@ -6,6 +6,7 @@ extern "C" {
 
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 #include "engine/core/input_file.h"
 
@@ -18,6 +19,19 @@ constexpr const char* kContainers = "mov,matroska,avi,mxf,mpeg,mpegvideo,mpegts,
 
 double as_double(AVRational r) {
     return r.den != 0 ? static_cast<double>(r.num) / r.den : 0.0;
+}
+
+// WebM keeps the alpha of VP8 and VP9 in a second picture beside each packet, which FFmpeg's own
+// decoders leave out; libvpx's read it.
+const AVCodec* decoder_with_alpha(const AVStream& stream, const AVCodec* codec) {
+    const AVDictionaryEntry* mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
+    if (!mode || std::string_view(mode->value) != "1") return codec;
+    const AVCodecID id = stream.codecpar->codec_id;
+    const char* name = id == AV_CODEC_ID_VP9   ? "libvpx-vp9"
+                       : id == AV_CODEC_ID_VP8 ? "libvpx"
+                                               : nullptr;
+    const AVCodec* found = name ? avcodec_find_decoder_by_name(name) : nullptr;
+    return found ? found : codec;
 }
 
 }  // namespace
@@ -58,7 +72,7 @@ bool MovieDecoder::rewind() {
         if (static_cast<int>(i) != best) input_->streams[i]->discard = AVDISCARD_ALL;
     }
     stream_ = input_->streams[best];
-    return open_codec(codec);
+    return open_codec(decoder_with_alpha(*stream_, codec));
 }
 
 bool MovieDecoder::open_codec(const AVCodec* codec) {

@@ -189,7 +189,8 @@ class MoviePlate final : public FrameReader {
         return fail(ErrorCode::kMissingFrames,
                     "Frame " + std::to_string(frame) + " is missing in " + path_ + ", which has " +
                         std::to_string(frames_.front()) + " to " + std::to_string(frames_.back()) +
-                        ". Render other frames, or change the number of the first frame" +
+                        ".",
+                    "Render other frames, or change the number of the first frame" +
                         by({{setting::kFrames}, {setting::kMovieStart}}) + ".");
     }
 

@@ -113,9 +113,8 @@ class VideoFile final : public MovieWriter {
         if (!open_codec(frame_rate(fps))) {
             return fail(ErrorCode::kUnreadable,
                         path_ + " cannot be written: this machine has no encoder for a movie of " +
-                            size_text(size_) +
-                            " pixels. Write numbered frames or the other kind of movie (.mp4, "
-                            ".mkv).");
+                            size_text(size_) + " pixels.",
+                        "Write numbered frames or the other kind of movie (.mp4, .mkv).");
         }
         return open_file();
     }

@@ -14,10 +14,8 @@ std::string movie_library() {
 }
 
 Status require_movies(const std::string& path) {
-    return fail(ErrorCode::kNoBackend,
-                path +
-                    ": this build has no movies (WEFT_MOVIES is off). Use numbered frames, or a "
-                    "build with movies.");
+    return fail(ErrorCode::kNoBackend, path + ": this build has no movies (WEFT_MOVIES is off).",
+                "Use numbered frames, or a build with movies.");
 }
 
 Expected<std::shared_ptr<const FrameReader>> open_movie_plate(const std::string& path,

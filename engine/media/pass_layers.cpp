@@ -104,7 +104,14 @@ FoundPass& chosen_among(std::vector<FoundPass>& candidates,
 }  // namespace
 
 std::string PassLayer::channel(std::string_view last) const {
-    const auto at = std::find(channels.begin(), channels.end(), last);
+    auto at = std::find(channels.begin(), channels.end(), last);
+    // Nuke writes out the names of the channels of layers.
+    for (const auto& [letter, word] : {std::pair<std::string_view, std::string_view>{"R", "red"},
+                                       {"G", "green"},
+                                       {"B", "blue"},
+                                       {"A", "alpha"}})
+        if (at == channels.end() && last == letter)
+            at = std::find(channels.begin(), channels.end(), word);
     if (at == channels.end()) return {};
     return prefixed ? name + "." + *at : *at;
 }

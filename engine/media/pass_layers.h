@@ -25,7 +25,8 @@ struct PassLayer {
     std::string view;        ///< "left"; empty if neither the name nor the part tells one.
     bool first_view = true;  ///< Of the stereo file's first view, as layers without one are.
 
-    /// The name of the channel in its part; empty if the layer has none that ends so.
+    /// The name of the channel in its part, of "R" also one that ends in "red", and so on; empty if
+    /// the layer has none.
     [[nodiscard]] std::string channel(std::string_view last) const;
     [[nodiscard]] bool has(const std::vector<std::string>& all) const;
 };

@@ -60,6 +60,24 @@ std::string reader_of(const std::string& path, std::string_view head) {
     return extension == ".tga" ? "targa" : "";
 }
 
+// Pages and layers of one size: the first is as likely to be the background as the picture. A
+// preview is smaller.
+Status check_pages(const std::string& path, OIIO::ImageInput& input) {
+    const OIIO::ImageSpec first = input.spec();
+    int pages = 1;
+    while (input.seek_subimage(pages, 0) && input.spec().width == first.width &&
+           input.spec().height == first.height)
+        ++pages;
+    static_cast<void>(input.geterror());
+    if (pages > 1) {
+        return tl::unexpected(
+            unreadable(path, "it holds several pictures of one size, as pages or layers",
+                       "Flatten it, or save the one that is meant by itself."));
+    }
+    if (!input.seek_subimage(0, 0)) return tl::unexpected(damaged(path, input.geterror()));
+    return {};
+}
+
 }  // namespace
 
 Status check_picture_file(const std::string& path) {
@@ -86,6 +104,7 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_picture(const std::string& path
     if (!input || !input->open(path, spec, config)) {
         return tl::unexpected(damaged(path, input ? input->geterror() : OIIO::geterror()));
     }
+    if (reader == "tiff" || reader == "gif") WEFT_CHECK_OK(check_pages(path, *input));
     return input;
 }
 

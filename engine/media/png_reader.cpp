@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <new>
 #include <optional>
 #include <span>
@@ -42,6 +43,19 @@ void on_read(png_structp png, png_bytep to, png_size_t count) {
     source.at += count;
 }
 
+// Coding-independent code points (PNG third edition, 11.3.2.6), which libpng 1.6 does not know.
+constexpr png_byte kCodingChunk[] = "cICP";
+
+// The transfer's code point in H.273; empty without the chunk.
+std::optional<int> transfer_of(png_const_structp png, png_infop info) {
+    png_unknown_chunkp chunks = nullptr;
+    const int count = png_get_unknown_chunks(png, info, &chunks);
+    for (int k = 0; k < count; ++k)
+        if (std::memcmp(chunks[k].name, kCodingChunk, 4) == 0 && chunks[k].size == 4)
+            return chunks[k].data[1];
+    return std::nullopt;
+}
+
 class PngHandle {
   public:
     explicit PngHandle(const InputFile& file)
@@ -54,6 +68,7 @@ class PngHandle {
             throw std::bad_alloc();
         }
         png_set_read_fn(png_, &source_, on_read);
+        png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS, kCodingChunk, 1);
     }
     ~PngHandle() { png_destroy_read_struct(&png_, &info_, nullptr); }
     PngHandle(const PngHandle&) = delete;
@@ -109,8 +124,12 @@ class PngHandle {
     png_infop info_ = nullptr;
 };
 
-// The sRGB chunk has precedence, then a profile, then gAMA and cHRM (PNG 1.2, 11.3.3).
+// The sRGB chunk has precedence, then a profile, then gAMA and cHRM (PNG 1.2, 11.3.3); before all
+// of them cICP.
 std::string PngHandle::color_note() const {
+    constexpr int kPq = 16, kHlg = 18;
+    const auto transfer = transfer_of(png_, info_);
+    if (transfer == kPq || transfer == kHlg) return "is an HDR picture (PQ or HLG)";
     if (png_get_valid(png_, info_, PNG_INFO_sRGB) != 0) return {};
     png_charp name = nullptr;
     png_bytep profile = nullptr;

@@ -9,7 +9,7 @@
 namespace weft {
 
 Error unreadable(const std::string& path, const std::string& reason, const std::string& advice) {
-    return {ErrorCode::kUnreadable, path + " cannot be read: " + reason + ". " + advice, {}};
+    return {ErrorCode::kUnreadable, path + " cannot be read: " + reason + ".", advice, {}};
 }
 
 Error damaged(const std::string& path, const std::string& reason) {
@@ -25,14 +25,12 @@ Error damaged(const std::string& path, const std::string& reason) {
 Status check_memory(const std::string& path, Size size, int channels) {
     const double bytes = static_cast<double>(size.width) * size.height * channels * sizeof(float);
     if (bytes <= static_cast<double>(decode_limit_bytes())) return {};
-    return fail(ErrorCode::kNoSpace,
-                path + " does not fit into memory: it has " + size_text(size) +
-                    " pixels, and a picture may take " +
-                    std::to_string(decode_limit_bytes() >> 20) +
-                    " MB decoded (a quarter of this machine's memory, or half of the memory "
-                    "limit). Scale it "
-                    "down, or allow more memory" +
-                    by({{setting::kMemory}}) + ".");
+    return fail(
+        ErrorCode::kNoSpace,
+        path + " does not fit into memory: it has " + size_text(size) +
+            " pixels, and a picture may take " + std::to_string(decode_limit_bytes() >> 20) +
+            " MB decoded (a quarter of this machine's memory, or half of the memory limit).",
+        "Scale it down, or allow more memory" + by({{setting::kMemory}}) + ".");
 }
 
 Status check_plate_size(const std::string& path, const std::string& what, Size have, Size plate,

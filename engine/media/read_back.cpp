@@ -39,8 +39,8 @@ bool reads_last_rows(ImageInput& input, int part) {
 
 Error read_back_error(const std::string& path, const std::string& how) {
     return {ErrorCode::kRenderFailed,
-            path + " was not written: read back, the new file " + how +
-                ". Check the disk, or write another format.",
+            path + " was not written: read back, the new file " + how + ".",
+            "Check the disk, or write another format.",
             {}};
 }
 

@@ -87,28 +87,27 @@ Expected<SequencePattern> SequencePattern::parse(std::string_view text) {
     const std::size_t name_at = slash == std::string_view::npos ? 0 : slash + 1;
     const std::string whole(text);
     if (name_at == text.size()) {
-        return fail(ErrorCode::kUsage,
-                    "'" + whole + "' has no file name. Write a name such as plate.####.exr.");
+        return fail(ErrorCode::kUsage, "'" + whole + "' has no file name.",
+                    "Write a name such as plate.####.exr.");
     }
     for (const Placeholder& p : placeholders_in(text.substr(0, name_at))) {
         if (p.length == 1) continue;
-        return fail(ErrorCode::kUsage, "'" + whole +
-                                           "' has a frame number in its folder part. Only the file "
-                                           "name can have one, such as plate.####.exr.");
+        return fail(ErrorCode::kUsage, "'" + whole + "' has a frame number in its folder part.",
+                    "Only the file name can have one, such as plate.####.exr.");
     }
     std::vector<Placeholder> found = placeholders_in(text.substr(name_at));
     if (is_part_of_name(found, whole)) found.clear();
     leave_out_single(found);
     if (found.size() > 1) {
-        return fail(ErrorCode::kUsage, "'" + whole +
-                                           "' has more than one frame number. Leave one of them, "
-                                           "such as plate.####.exr.");
+        return fail(ErrorCode::kUsage, "'" + whole + "' has more than one frame number.",
+                    "Leave one of them, such as plate.####.exr.");
     }
     SequencePattern pattern;
     pattern.text_ = whole;
     if (found.empty()) return pattern;
     if (found[0].padding > kMaxPadding) {
-        return fail(ErrorCode::kUsage, "'" + whole + "' asks for more than 12 digits. Use fewer.");
+        return fail(ErrorCode::kUsage, "'" + whole + "' asks for more than 12 digits.",
+                    "Use fewer.");
     }
     const std::size_t begin = name_at + found[0].begin;
     pattern.numbered_ = true;
@@ -161,8 +160,8 @@ Error SequencePattern::other_spelling(const std::string& path, std::int64_t fram
     error.code = ErrorCode::kUsage;
     error.message = path + " is frame " + std::to_string(frame) + " with its minus " +
                     (printf_ ? "beside" : "as one of") + " the " + places + " places, but for " +
-                    text_ + " that frame is " + own + ". Write " + fitting +
-                    " for the frame number, or rename the files.";
+                    text_ + " that frame is " + own + ".";
+    error.remedy = "Write " + fitting + " for the frame number, or rename the files.";
     return error;
 }
 
@@ -181,16 +180,18 @@ Expected<std::vector<int>> SequencePattern::list_frames() const {
             return tl::unexpected(other_spelling(path, *other));
         if (!number) continue;
         if (!is_frame_number(*number)) {
-            return fail(ErrorCode::kUnreadable, path + " has a frame number beyond " +
-                                                    std::to_string(kMaxFrameNumber) +
-                                                    ". Renumber it, or take it out of the folder.");
+            return fail(
+                ErrorCode::kUnreadable,
+                path + " has a frame number beyond " + std::to_string(kMaxFrameNumber) + ".",
+                "Renumber it, or take it out of the folder.");
         }
         frames.push_back(static_cast<int>(*number));
     }
     if (error) {
-        return fail(ErrorCode::kUnreadable, "The folder " + (folder.empty() ? "." : folder) +
-                                                " cannot be read: " + error.message() +
-                                                ". Check the path and its permissions.");
+        return fail(ErrorCode::kUnreadable,
+                    "The folder " + (folder.empty() ? "." : folder) +
+                        " cannot be read: " + error.message() + ".",
+                    "Check the path and its permissions.");
     }
     std::sort(frames.begin(), frames.end());
     return frames;

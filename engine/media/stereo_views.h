@@ -1,5 +1,5 @@
 #pragma once
-// Internal: which view of a stereo EXR a layer belongs to, by its name.
+// Which view of a stereo EXR a layer belongs to, by its name.
 
 #include <string>
 #include <string_view>

@@ -19,7 +19,8 @@ Error missing_frame(const SequencePattern& pattern, int frame) {
     const std::string file = pattern.path_for(frame);
     return {ErrorCode::kMissingFrames,
             "Frame " + std::to_string(frame) + " is missing in " + pattern.text() + ": file " +
-                file + " not found. Supply it, or leave it out of the frames.",
+                file + " not found.",
+            "Supply it, or leave it out of the frames.",
             {}};
 }
 
@@ -91,7 +92,7 @@ class StillSequence final : public FrameReader {
 Expected<Hash128> stamp_file(const std::string& path, int frame) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) {
-        return fail(ErrorCode::kMissingFrames, path + " is missing. Supply it again.");
+        return fail(ErrorCode::kMissingFrames, path + " is missing.", "Supply it again.");
     }
     // What is not a regular file has none; reading it will be refused.
     const FileStamp stamp = stamp_of(path).value_or(FileStamp());
@@ -113,9 +114,10 @@ Expected<std::shared_ptr<const FrameReader>> open_still_sequence(const SequenceP
             frames = std::move(listed);
         }
         if (frames.empty()) {
-            return fail(ErrorCode::kMissingFrames, "No frames match " + pattern.text() +
-                                                       ": there is no file such as " +
-                                                       pattern.path_for(1) + ". Check the path.");
+            return fail(ErrorCode::kMissingFrames,
+                        "No frames match " + pattern.text() + ": there is no file such as " +
+                            pattern.path_for(1) + ".",
+                        "Check the path.");
         }
     }
     WEFT_TRY(first, probe_raster(pattern.path_for(frames.front()), {options.layer, {}, false}));

@@ -148,8 +148,9 @@ Expected<TemporaryFolder> TemporaryFolder::create() {
         }
         if (!error) error = std::make_error_code(std::errc::file_exists);
     }
-    return fail(ErrorCode::kNoSpace, "A temporary folder cannot be created: " + error.message() +
-                                         ". Set TMPDIR to a writable folder.");
+    return fail(ErrorCode::kNoSpace,
+                "A temporary folder cannot be created: " + error.message() + ".",
+                "Set TMPDIR to a writable folder.");
 }
 
 }  // namespace weft

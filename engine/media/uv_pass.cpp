@@ -1,6 +1,8 @@
 // Texture coordinates from renderers' passes and ST-maps: read_uv().
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "engine/core/setting.h"
 #include "engine/media/image_files.h"
 #include "engine/media/pass_layers.h"
+#include "engine/media/raster_errors.h"
 
 namespace weft {
 namespace {
@@ -47,6 +50,23 @@ bool covers_any(const std::vector<float>& coverage) {
                        [](float v) { return v >= 0 && v <= 2 - kWholePixel; });
 }
 
+// Coordinates that count in pixels go up by 1 from one to the next. Of those from 0 to 1 a texture
+// that repeats so often would be a flat colour.
+bool count_pixels(const ImageF2& uv) {
+    constexpr float kStep = 0.5f;
+    std::int64_t pairs = 0, wide = 0;
+    for (int y = 0; y < uv.height(); ++y) {
+        for (int x = 1; x < uv.width(); ++x) {
+            const float du = uv.at(x, y, 0) - uv.at(x - 1, y, 0);
+            const float dv = uv.at(x, y, 1) - uv.at(x - 1, y, 1);
+            if (!std::isfinite(du) || !std::isfinite(dv) || (du == 0 && dv == 0)) continue;
+            ++pairs;
+            wide += std::hypot(du, dv) > kStep;
+        }
+    }
+    return 2 * wide > pairs;
+}
+
 }  // namespace
 
 Expected<FoundPass> locate_uv(const std::string& path, const std::string& layer,
@@ -72,6 +92,11 @@ Expected<ImageF2> read_uv(const std::string& path, const std::string& layer, Siz
         const bool known = !covers || uv[2][i] >= kWholePixel;
         out.data()[2 * i] = known ? uv[0][i] : kUnknown;
         out.data()[2 * i + 1] = known ? uv[1][i] : kUnknown;
+    }
+    if (count_pixels(out)) {
+        return tl::unexpected(unreadable(
+            path, "its UV changes by more than half a texture from pixel to pixel, as pixels do",
+            "Divide it by the picture's size: coordinates go from 0 to 1."));
     }
     return out;
 }

@@ -53,7 +53,8 @@ Error video_write_error(const std::string& path, int av_error) {
     const int system = AVUNERROR(av_error);
     if (system == ENOMEM) {
         return {ErrorCode::kNoSpace,
-                path + " cannot be written: the machine is out of memory. Close other programs.",
+                path + " cannot be written: the machine is out of memory.",
+                "Close other programs.",
                 {}};
     }
     if (system > 0 && system <= kLastErrno && system != EINVAL) {
@@ -62,8 +63,8 @@ Error video_write_error(const std::string& path, int av_error) {
     char text[AV_ERROR_MAX_STRING_SIZE] = {};
     av_strerror(av_error, text, sizeof text);
     return {ErrorCode::kRenderFailed,
-            path + " cannot be written: the encoder says \"" + text +
-                "\". Write numbered frames or the other kind of movie (.mp4, .mkv).",
+            path + " cannot be written: the encoder says \"" + text + "\".",
+            "Write numbered frames or the other kind of movie (.mp4, .mkv).",
             {}};
 }
 

@@ -36,8 +36,8 @@ std::optional<std::pair<dev_t, ino_t>> identity_of(const std::string& path) {
 
 Error outside(const std::string& path, const std::string& root) {
     return {ErrorCode::kUsage,
-            path + " is outside the output root " + root +
-                ". Choose a path inside it, or another root" + by({{setting::kOutputRoot}}) + ".",
+            path + " is outside the output root " + root + ".",
+            "Choose a path inside it, or another root" + by({{setting::kOutputRoot}}) + ".",
             {}};
 }
 
@@ -45,8 +45,8 @@ Error outside(const std::string& path, const std::string& root) {
 
 Error exists_already(const std::string& path) {
     return {ErrorCode::kUsage,
-            path + " exists already. Overwrite it" + by({{setting::kOverwrite}}) +
-                ", or use another name.",
+            path + " exists already.",
+            "Overwrite it" + by({{setting::kOverwrite}}) + ", or use another name.",
             {}};
 }
 
@@ -58,8 +58,8 @@ std::string real_path(const std::string& path) {
 Status WriteFence::add_root(const std::string& folder) {
     std::error_code error;
     if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
-        return fail(ErrorCode::kUsage, "The output root " + folder + " is a file. Give a folder" +
-                                           by({{setting::kOutputRoot}}) + ".");
+        return fail(ErrorCode::kUsage, "The output root " + folder + " is a file.",
+                    "Give a folder" + by({{setting::kOutputRoot}}) + ".");
     }
     roots_.push_back(real_folder(folder));
     return {};
@@ -104,9 +104,8 @@ Status WriteFence::check(const std::string& shown, const std::string& real) cons
     if (const auto identity = identity_of(real); identity && !input)
         input = files_.contains(*identity);
     if (input) {
-        return fail(ErrorCode::kUsage, shown +
-                                           " is an input of this run and would be overwritten. "
-                                           "Choose another name or folder.");
+        return fail(ErrorCode::kUsage, shown + " is an input of this run and would be overwritten.",
+                    "Choose another name or folder.");
     }
     if (!allows(folder)) return tl::unexpected(outside(shown, roots_.front()));
     return {};

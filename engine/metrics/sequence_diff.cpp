@@ -51,9 +51,10 @@ Expected<FrameDiff> diff(ViewF3 a, ViewF3 b, const ViewU8x1* where) {
                                              " and " + size_text(b.size()) + ".");
     }
     if (where != nullptr && !(where->size() == a.size())) {
-        return fail(ErrorCode::kUnreadable, "The matte is " + size_text(where->size()) +
-                                                " but the frame is " + size_text(a.size()) +
-                                                ". Give a matte of the frame's size.");
+        return fail(ErrorCode::kUnreadable,
+                    "The matte is " + size_text(where->size()) + " but the frame is " +
+                        size_text(a.size()) + ".",
+                    "Give a matte of the frame's size.");
     }
     std::vector<RowDiff> rows(static_cast<std::size_t>(a.height()));
     parallel_for(rows.size(),

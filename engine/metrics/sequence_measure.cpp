@@ -17,9 +17,10 @@ namespace {
 
 Status check_size(const char* what, int frame, Size got, Size expected) {
     if (got == expected) return {};
-    return fail(ErrorCode::kUnreadable, std::string(what) + " of frame " + std::to_string(frame) +
-                                            " is " + size_text(got) + " but the first result is " +
-                                            size_text(expected) + ". Give files of one size.");
+    return fail(ErrorCode::kUnreadable,
+                std::string(what) + " of frame " + std::to_string(frame) + " is " + size_text(got) +
+                    " but the first result is " + size_text(expected) + ".",
+                "Give files of one size.");
 }
 
 Matte owned(ViewU8x1 m) {

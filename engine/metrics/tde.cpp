@@ -80,8 +80,8 @@ TemporalError measure_tde(ViewF1 source_luma, ViewF1 target_luma, const FlowFiel
     return {all.mean(), all.count};
 }
 
-TemporalError carried_tde(ViewF1 earlier_luma, const FlowField& earlier_from_later,
-                          const FlowField& later_from_earlier, ViewU8x1 visible) {
+TemporalError warped_tde(ViewF1 earlier_luma, const FlowField& earlier_from_later,
+                         const FlowField& later_from_earlier, ViewU8x1 visible) {
     ImageF1 later = moved(earlier_luma, earlier_from_later);
     for (int y = 0; y < later.height(); ++y)
         for (int x = 0; x < later.width(); ++x)

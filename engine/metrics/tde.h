@@ -30,8 +30,8 @@ struct TemporalError {
 /// `earlier_from_later`: the part of the error that comes from the disagreement of the given motion
 /// with that field, at this contrast, and not from a change. Otherwise as there; 0 pixels where the
 /// field is not valid.
-[[nodiscard]] TemporalError carried_tde(ViewF1 earlier_luma, const FlowField& earlier_from_later,
-                                        const FlowField& later_from_earlier, ViewU8x1 visible);
+[[nodiscard]] TemporalError warped_tde(ViewF1 earlier_luma, const FlowField& earlier_from_later,
+                                       const FlowField& later_from_earlier, ViewU8x1 visible);
 
 /// Warps a picture: out(p) = image(p + d(p)) with the same lookup, 0 where the field is not valid.
 [[nodiscard]] ImageF1 moved(ViewF1 image, const FlowField& image_from_out);

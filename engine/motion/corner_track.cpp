@@ -15,8 +15,8 @@ namespace {
 using Point = glm::dvec2;
 using Path = std::map<int, Point>;  // one corner over time
 
-tl::unexpected<Error> unreadable(std::string message) {
-    return fail(ErrorCode::kUnreadable, std::move(message));
+tl::unexpected<Error> unreadable(std::string message, std::string remedy) {
+    return fail(ErrorCode::kUnreadable, std::move(message), std::move(remedy));
 }
 
 std::vector<std::string_view> words(std::string_view text, std::string_view between) {
@@ -102,15 +102,15 @@ Expected<CornerTrack> parse_lines(std::string_view text, bool points) {
                    read_number(numbers[2 + 2 * k], quad[k].y);
         }
         if (!good) {
-            return unreadable(
-                "Line " + std::to_string(number) +
-                " is not a frame and the x and y of four corners. Write nine numbers on each "
-                "line: the frame, then x and y of the four corners" +
-                (points ? "; or three for a point" : ""));
+            return unreadable("Line " + std::to_string(number) +
+                                  " is not a frame and the x and y of four corners.",
+                              std::string("Write nine numbers on each line: the frame, then x and "
+                                          "y of the four corners") +
+                                  (points ? "; or three for a point" : ""));
         }
         if (!track.emplace(frame, quad).second)
-            return unreadable("Frame " + std::to_string(frame) +
-                              " occurs twice. Keep one of its lines");
+            return unreadable("Frame " + std::to_string(frame) + " occurs twice.",
+                              "Keep one of its lines");
     }
     return completed(std::move(track));
 }
@@ -181,8 +181,8 @@ Expected<CornerTrack> parse_after_effects(std::string_view text,
     constexpr const char* kCorners[] = {"upper left", "upper right", "lower right", "lower left"};
     for (std::size_t k = 0; k < 4; ++k) {
         if (paths[k].empty())
-            return unreadable(std::string("The keyframe data has no ") + kCorners[k] +
-                              " corner. Copy the keyframes of all four corners");
+            return unreadable(std::string("The keyframe data has no ") + kCorners[k] + " corner.",
+                              "Copy the keyframes of all four corners");
     }
     return joined(paths);
 }
@@ -216,8 +216,8 @@ std::string_view braced(std::string_view text) {
 // A knob of two numbers, each of which may be a curve.
 Expected<Path> knob_path(std::string_view node, const std::string& name, double height) {
     const auto missing = [&] {
-        return unreadable("The CornerPin2D node has no usable " + name +
-                          ". Export the four points to1 to to4");
+        return unreadable("The CornerPin2D node has no usable " + name + ".",
+                          "Export the four points to1 to to4");
     };
     std::size_t at = std::string_view::npos;
     for (std::size_t from = 0; (from = node.find(name + " ", from)) != std::string_view::npos;
@@ -270,19 +270,19 @@ Expected<CornerTrack> parse_nuke(std::string_view text, const CornerTrackContext
 
 Expected<CornerTrack> completed(CornerTrack track) {
     if (track.empty())
-        return unreadable("The track has no frames. Export it again with its frames");
+        return unreadable("The track has no frames.", "Export it again with its frames");
     for (const auto& [frame, quad] : track) {
         if (!is_convex(quad)) {
-            return unreadable(
-                "On frame " + std::to_string(frame) +
-                " the corners do not go around a convex quadrilateral: top left, top right, bottom "
-                "right, bottom left. Correct them, or remove the frame");
+            return unreadable("On frame " + std::to_string(frame) +
+                                  " the corners do not go around a convex quadrilateral: top left, "
+                                  "top right, bottom right, bottom left.",
+                              "Correct them, or remove the frame");
         }
     }
     constexpr int kLongest = 1'000'000;
     const int first = track.begin()->first, last = track.rbegin()->first;
     if (last - first > kLongest)
-        return unreadable("The track has too many frames. Remove those far from the shot");
+        return unreadable("The track has too many frames.", "Remove those far from the shot");
     CornerTrack out;
     for (int frame = first; frame <= last; ++frame) {
         const auto after = track.lower_bound(frame);

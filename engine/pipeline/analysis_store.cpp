@@ -21,9 +21,8 @@ bool sane(Size s) {
 }
 
 tl::unexpected<Error> damaged(const char* what) {
-    return fail(ErrorCode::kRenderFailed,
-                std::string("The cached ") + what +
-                    " is damaged. Delete the cache folder and render again.");
+    return fail(ErrorCode::kRenderFailed, std::string("The cached ") + what + " is damaged.",
+                "Delete the cache folder and render again.");
 }
 
 // Shading is kept as round(log2(v) · 2048) + 32768: from 2^-16 to 2^16.

@@ -21,12 +21,12 @@
 namespace weft {
 
 enum class AnalysisKind : std::uint8_t {
-    kMatteForward,   ///< Propagated from the keyframe before (only while the mattes are made).
-    kMatte,          ///< Propagated and merged, with its confidence.
-    kCoords,         ///< ref_from_cur
-    kCoordsOneWay,   ///< The same between two references, as tracked from one of them.
-    kHistoryBefore,  ///< Between two references: as tracked from the one before,
-    kHistoryAfter,   ///< and from the one after.
+    kMatteForward,  ///< Propagated from the keyframe before (only while the mattes are made).
+    kMatte,         ///< Propagated and merged, with its confidence.
+    kCoords,        ///< ref_from_cur
+    kCoordsOneWay,  ///< The same between two references, as tracked from one of them.
+    kTrackBefore,   ///< Between two references: as tracked from the one before,
+    kTrackAfter,    ///< and from the one after.
     /// Between two references: the frame repeats the drawing of the frame before in time.
     kHeldBetween,
     kLightSample,  ///< The plate as the shading estimate sees it (only while light is estimated).

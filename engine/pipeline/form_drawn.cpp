@@ -31,9 +31,8 @@ Status check_on_region(const FormGuide& stroke, const Matte& visible) {
         if (inside == 0)
             return fail(ErrorCode::kUsage,
                         "A " + std::string(info_of(stroke.kind).name) +
-                            " stroke lies outside of the region on its reference frame. Draw it "
-                            "on the surface" +
-                            by({{setting::kFormStrokes}}) + ".");
+                            " stroke lies outside of the region on its reference frame.",
+                        "Draw it on the surface" + by({{setting::kFormStrokes}}) + ".");
     }
     return {};
 }
@@ -78,15 +77,16 @@ Expected<FormMap> form_from_drawing(const FormEvidence& evidence, Size plate,
     auto surface = surface_of(region, plate);
     if (!surface) {
         Error error = std::move(surface).error();
-        error.message += by({{setting::kFormShape}, {setting::kFormStrokes}}) + ".";
+        std::string& last = error.remedy.empty() ? error.message : error.remedy;
+        last += by({{setting::kFormShape}, {setting::kFormStrokes}}) + ".";
         return tl::unexpected(std::move(error));
     }
     const Recti box = matte_box(evidence.visible);
     if (box.empty()) {
-        return fail(ErrorCode::kUsage,
-                    "The region's matte is empty on its reference frame, so a shape has nothing "
-                    "to lie on. Choose another reference frame" +
-                        by({{setting::kReferenceFrame}}) + ".");
+        return fail(
+            ErrorCode::kUsage,
+            "The region's matte is empty on its reference frame, so a shape has nothing to lie on.",
+            "Choose another reference frame" + by({{setting::kReferenceFrame}}) + ".");
     }
     MetricField field = field_over(plate, domain_of(box, plate, surface->is_plane()));
     add_surface(field, *surface, evidence.visible);
@@ -94,9 +94,8 @@ Expected<FormMap> form_from_drawing(const FormEvidence& evidence, Size plate,
     if (surface->is_plane()) beyond = [&](Vec2 place) { return surface->metric(place); };
     if (!field.finish(beyond)) {
         return fail(ErrorCode::kUsage,
-                    "The shape does not lie on the region on its reference frame. Draw it over "
-                    "the surface" +
-                        by({{setting::kFormShape}}) + ".");
+                    "The shape does not lie on the region on its reference frame.",
+                    "Draw it over the surface" + by({{setting::kFormShape}}) + ".");
     }
     FormMap out = flat_from_reference(field);
     out.finding = {FormFinding::Source::kShape,

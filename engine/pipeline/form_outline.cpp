@@ -61,9 +61,8 @@ Expected<Matte> cuts_of(const RegionPlan& region, const Matte& extent) {
         for (std::size_t k = 0; k < stroke.numbers.size(); k += 4) {
             if (mark(stroke.place(k), stroke.place(k + 2), reach, extent, out)) continue;
             return fail(ErrorCode::kUsage,
-                        "A cut stroke lies off the region's outline on its reference frame. Draw "
-                        "it along the outline" +
-                            by({{setting::kFormStrokes}}) + ".");
+                        "A cut stroke lies off the region's outline on its reference frame.",
+                        "Draw it along the outline" + by({{setting::kFormStrokes}}) + ".");
         }
     }
     return out;
@@ -85,10 +84,10 @@ Expected<FormMap> form_from_outline(const FormEvidence& evidence, const Matte& e
     if (!round || !field.finish()) {
         return fail(ErrorCode::kUsage,
                     "The region's outline on its reference frame turns away nowhere, or its matte "
-                    "is too small, so there is nothing to inflate. Choose another reference frame" +
-                        by({{setting::kReferenceFrame}}) + ", another source" +
-                        by({{setting::kFormSource}}) + ", or remove cut strokes" +
-                        by({{setting::kFormStrokes}}) + ".");
+                    "is too small, so there is nothing to inflate.",
+                    "Choose another reference frame" + by({{setting::kReferenceFrame}}) +
+                        ", another source" + by({{setting::kFormSource}}) +
+                        ", or remove cut strokes" + by({{setting::kFormStrokes}}) + ".");
     }
     FormMap out = flat_from_reference(field);
     out.finding = {FormFinding::Source::kOutline, false, 1};

@@ -29,17 +29,16 @@ std::string text_of(const std::vector<int>& frames) {
 
 tl::unexpected<Error> no_form(const std::vector<int>& frames, RegionPlan::FormFrom from) {
     if (from == RegionPlan::FormFrom::kNormals) {
-        return fail(ErrorCode::kUnreadable, "The normal pass shows no form on " + text_of(frames) +
-                                                ": inside the matte its normals are zero or not "
-                                                "finite. Choose the layer with the normals of this "
-                                                "surface" +
-                                                by({{setting::kNormalLayer}}) +
-                                                ", or leave the pass out.");
+        return fail(ErrorCode::kUnreadable,
+                    "The normal pass shows no form on " + text_of(frames) +
+                        ": inside the matte its normals are zero or not finite.",
+                    "Choose the layer with the normals of this surface" +
+                        by({{setting::kNormalLayer}}) + ", or leave the pass out.");
     }
     return fail(ErrorCode::kUnreadable,
                 "The position pass shows no form on " + text_of(frames) +
-                    ": inside the matte its places are constant, on one line or not finite. "
-                    "Choose the layer with the places of this surface" +
+                    ": inside the matte its places are constant, on one line or not finite.",
+                "Choose the layer with the places of this surface" +
                     by({{setting::kPositionLayer}}) + ", or leave the pass out.");
 }
 
@@ -64,8 +63,8 @@ Expected<double> add_pass(const PassContext& context, int region, int frame, con
     if (!normals) {
         return fail(ErrorCode::kUnreadable,
                     "Many normals of the normal pass face away from the camera on frame " +
-                        std::to_string(frame) +
-                        ", so they are not in the axes that are set. Set the space they are in" +
+                        std::to_string(frame) + ", so they are not in the axes that are set.",
+                    "Set the space they are in" +
                         by({{setting::kNormalSpace, "camera"}, {setting::kNormalSpace, "world"}}) +
                         ".");
     }

@@ -45,10 +45,10 @@ Status ZonedAnalysis::put(const AnalysisKey& /*key*/, const Bytes& /*bytes*/) {
 }
 
 Expected<Bytes> ZonedAnalysis::get(const AnalysisKey& key) const {
-    const bool history =
-        key.kind == AnalysisKind::kHistoryBefore || key.kind == AnalysisKind::kHistoryAfter;
+    const bool track =
+        key.kind == AnalysisKind::kTrackBefore || key.kind == AnalysisKind::kTrackAfter;
     const bool coords = key.kind == AnalysisKind::kCoords && key.layer == 0;
-    if ((!history && !coords) || !has_motion_zones(region_of(plan_, key.region)))
+    if ((!track && !coords) || !has_motion_zones(region_of(plan_, key.region)))
         return store_.get(key);
     WEFT_TRY(placed, placed_on(key.region, key.frame));
     if (coords) return encode(placed);

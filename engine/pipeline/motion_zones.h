@@ -14,7 +14,7 @@
 
 namespace weft {
 
-/// The analysis as frames are rendered from it: kCoords, kHistoryBefore and kHistoryAfter of
+/// The analysis as frames are rendered from it: kCoords, kTrackBefore and kTrackAfter of
 /// regions with motion zones are changed inside of these, on the way out. Nothing is written: the
 /// analysis itself (light, form, highlights) stays that of the surface as it was followed, so that
 /// nothing changes outside of the zones. Refers to its arguments, which must outlive it; keeps what

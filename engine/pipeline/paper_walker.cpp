@@ -40,7 +40,7 @@ Expected<FramePlane> frame_plane(const PlanePlacement& placement, Size plate) {
     if (!(extent.x < kLargestPaper && extent.y < kLargestPaper)) {
         return fail(
             ErrorCode::kUsage,
-            "The placement needs a texture of more than 8192 texels per side for every frame. "
+            "The placement needs a texture of more than 8192 texels per side for every frame.",
             "Raise the scale, or use the locked mode, which repeats its plane" +
                 by({{setting::kTemporalMode, "locked"}}) + ".");
     }

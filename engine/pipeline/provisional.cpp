@@ -21,11 +21,11 @@
 namespace weft {
 namespace {
 
-bool is_history(AnalysisKind kind) {
-    return kind == AnalysisKind::kHistoryBefore || kind == AnalysisKind::kHistoryAfter;
+bool is_track(AnalysisKind kind) {
+    return kind == AnalysisKind::kTrackBefore || kind == AnalysisKind::kTrackAfter;
 }
 
-// Seams between histories need the histories of all their frames, which a region that is still
+// Seams between tracks need the tracks of all their frames, which a region that is still
 // being analysed does not have.
 class OverlayStore final : public AnalysisStore {
   public:
@@ -50,7 +50,7 @@ class OverlayStore final : public AnalysisStore {
   private:
     [[nodiscard]] bool hidden(const AnalysisKey& key) const {
         if (left_out_.contains(key.region)) return true;
-        return is_history(key.kind) && unfinished_.contains(key.region);
+        return is_track(key.kind) && unfinished_.contains(key.region);
     }
 
     const AnalysisStore& known_;

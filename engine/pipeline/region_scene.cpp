@@ -10,13 +10,13 @@
 #include "engine/pipeline/frame_focus.h"
 #include "engine/pipeline/frame_layers.h"
 #include "engine/pipeline/gloss_pass.h"
-#include "engine/pipeline/history_seams.h"
 #include "engine/pipeline/plate_alpha.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_form.h"
 #include "engine/pipeline/region_light.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/synthesis_inputs.h"
+#include "engine/pipeline/track_seams.h"
 
 namespace weft {
 namespace {
@@ -190,8 +190,8 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
         scene.stats = made->stats;
         scene.plane_seams = std::move(made->seams);
         scene.grown = std::move(made->grown);
-        WEFT_TRY(seams, make_history_seams(source, plan, store, region_index, scene.plane,
-                                           scene.mapping.form()));
+        WEFT_TRY(seams, make_track_seams(source, plan, store, region_index, scene.plane,
+                                         scene.mapping.form()));
         scene.seams = std::move(seams);
     }
     const int reference = region.reference_frames.front();

@@ -18,7 +18,7 @@
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
 #include "engine/synthesis/texture_plane.h"
-#include "engine/temporal/history_seam.h"
+#include "engine/temporal/track_seam.h"
 
 namespace weft {
 
@@ -44,7 +44,7 @@ struct RegionScene {
     TextureFocus focus;  ///< Of the texture; measured where the plate's focus is matched.
     float focus_texels_per_px = 1;  ///< On the reference frame, where that was measured.
     float shutter_deg = 0;
-    std::vector<HistorySeam> seams;   ///< Between the histories from two references.
+    std::vector<TrackSeam> seams;     ///< Between the tracks from two references.
     std::optional<PlaneStats> stats;  ///< Of a grown plane.
     Matte plane_seams;                ///< Where a grown plane has seams (ShotPlan::layers).
     /// The grown plane itself, where ShotPlan::keep_planes asks for it.

@@ -162,16 +162,16 @@ Expected<ImageF3> RegionSurface::layer(const LatticeField& ref_from_cur, const R
     return out;
 }
 
-const HistorySeam* RegionSurface::seam() const {
-    for (const HistorySeam& seam : scene_.seams) {
-        if (seam.covers(frame_) && store_.has({index_, frame_, AnalysisKind::kHistoryAfter}))
+const TrackSeam* RegionSurface::seam() const {
+    for (const TrackSeam& seam : scene_.seams) {
+        if (seam.covers(frame_) && store_.has({index_, frame_, AnalysisKind::kTrackAfter}))
             return &seam;
     }
     return nullptr;
 }
 
-Expected<ImageF3> RegionSurface::two_histories(const HistorySeam& seam, const Recti& box,
-                                               const Matte& matte) const {
+Expected<ImageF3> RegionSurface::two_tracks(const TrackSeam& seam, const Recti& box,
+                                            const Matte& matte) const {
     WEFT_TRY(place, stored(AnalysisKind::kCoords));
     const ImageF2 d = place.dense(box);
     ImageF1 share(box.size());
@@ -192,7 +192,7 @@ Expected<ImageF3> RegionSurface::two_histories(const HistorySeam& seam, const Re
     });
     ImageF3 out;
     for (const bool after : {false, true}) {
-        const auto kind = after ? AnalysisKind::kHistoryAfter : AnalysisKind::kHistoryBefore;
+        const auto kind = after ? AnalysisKind::kTrackAfter : AnalysisKind::kTrackBefore;
         WEFT_TRY(ref_from_cur, stored(kind));
         WEFT_TRY(shown, layer(ref_from_cur, box, inside[after ? 1 : 0]));
         if (!after) {
@@ -212,8 +212,8 @@ Expected<ImageF3> RegionSurface::two_histories(const HistorySeam& seam, const Re
 }
 
 Expected<ImageF3> RegionSurface::texture(const Recti& box, const Matte& matte) const {
-    const HistorySeam* between = exact_ ? nullptr : seam();
-    if (between) return two_histories(*between, box, matte);
+    const TrackSeam* between = exact_ ? nullptr : seam();
+    if (between) return two_tracks(*between, box, matte);
     if (region_.temporal == TemporalMode::kLocked && !exact_) {
         WEFT_TRY(ref_from_cur, stored(AnalysisKind::kCoords));
         return layer(ref_from_cur, box, matte);

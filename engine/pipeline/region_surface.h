@@ -42,7 +42,7 @@ class RegionSurface {
     /// a UV pass. `exact` must outlive the surface.
     void use_coords(const TextureCoords& exact) { exact_ = &exact; }
     /// Whether one lookup for each pixel gives the texture: there is no motion blur, and no seam
-    /// between the histories of two references.
+    /// between the tracks of two references.
     [[nodiscard]] bool is_one_lookup() const;
     /// That lookup.
     [[nodiscard]] Expected<SurfaceLookup> lookup(const Recti& box) const;
@@ -59,13 +59,13 @@ class RegionSurface {
     // How the surface moves while the shutter is open, px a frame; empty where there is no blur.
     [[nodiscard]] Expected<LatticeField> velocity() const;
     [[nodiscard]] Expected<TextureCoords> coords(const Recti& box) const;
-    // In locked mode: a history's texture, with the motion's blur.
+    // In locked mode: a track's texture, with the motion's blur.
     [[nodiscard]] Expected<ImageF3> layer(const LatticeField& ref_from_cur, const Recti& box,
                                           const Matte& matte) const;
-    // The same between two references whose histories do not agree: each on its side of the seam.
-    [[nodiscard]] Expected<ImageF3> two_histories(const HistorySeam& seam, const Recti& box,
-                                                  const Matte& matte) const;
-    [[nodiscard]] const HistorySeam* seam() const;
+    // The same between two references whose tracks do not agree: each on its side of the seam.
+    [[nodiscard]] Expected<ImageF3> two_tracks(const TrackSeam& seam, const Recti& box,
+                                               const Matte& matte) const;
+    [[nodiscard]] const TrackSeam* seam() const;
 
     const ShotPlan& plan_;
     const RegionPlan& region_;

@@ -12,8 +12,8 @@
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/surface_stop.h"
 #include "engine/pipeline/walk_along.h"
-#include "engine/temporal/history_seam.h"
 #include "engine/temporal/shutter.h"
+#include "engine/temporal/track_seam.h"
 
 namespace weft {
 namespace {
@@ -235,8 +235,8 @@ class Follower {
             WEFT_CHECK_OK(
                 keep(job, back ? frame + 1 : frame, AnalysisKind::kHeldBetween, encode(1.0f)));
         WEFT_CHECK_OK(
-            keep(job, frame, AnalysisKind::kHistoryBefore, encode(back ? relaxed : *stretched)));
-        return keep(job, frame, AnalysisKind::kHistoryAfter, encode(back ? *stretched : relaxed));
+            keep(job, frame, AnalysisKind::kTrackBefore, encode(back ? relaxed : *stretched)));
+        return keep(job, frame, AnalysisKind::kTrackAfter, encode(back ? *stretched : relaxed));
     }
 
     Status keep_track(SurfaceJob& job, const SweepFrame& at, const SurfaceStop& stop) {
@@ -327,13 +327,13 @@ class Follower {
         constexpr float kSlowestPx = 0.2f;  // per frame, at a plate 854 px wide: not visible
         const float limit_px = kSlowestPx * static_cast<float>(context_.source.size().width) /
                                854.0f * static_cast<float>(*after - *(after - 1));
-        const HistoryLayers layers =
+        const TrackLayers layers =
             spread_disagreement(from_before, from_after, smooth, limit_px, visible);
         if (layers.apart) {
             if (job.held_frames.contains(frame))
                 WEFT_CHECK_OK(keep(job, frame, AnalysisKind::kHeldBetween, encode(1.0f)));
-            WEFT_CHECK_OK(keep(job, frame, AnalysisKind::kHistoryBefore, encode(layers.before)));
-            WEFT_CHECK_OK(keep(job, frame, AnalysisKind::kHistoryAfter, encode(layers.after)));
+            WEFT_CHECK_OK(keep(job, frame, AnalysisKind::kTrackBefore, encode(layers.before)));
+            WEFT_CHECK_OK(keep(job, frame, AnalysisKind::kTrackAfter, encode(layers.after)));
         }
         return keep(job, frame, AnalysisKind::kCoords,
                     encode(mix(from_before, from_after, smooth)));

@@ -29,13 +29,14 @@ Status check(const std::vector<ViewU8x3>& samples, const PlaneOptions& o) {
         WEFT_CHECK_OK(check_sample(sample.size(), o.overlap_px));
     if (o.size.width < 1 || o.size.height < 1 || o.size.width > kLargestPlaneSide ||
         o.size.height > kLargestPlaneSide) {
-        return fail(ErrorCode::kUsage, "The texture plane's size is " + size_text(o.size) +
-                                           ". Use 1 to 16384 px on each side.");
+        return fail(ErrorCode::kUsage, "The texture plane's size is " + size_text(o.size) + ".",
+                    "Use 1 to 16384 px on each side.");
     }
     if (o.guide && (o.guide->target.size() != o.size || o.guide->known.size() != o.size)) {
-        return fail(ErrorCode::kUsage, "The guide picture is " + size_text(o.guide->target.size()) +
-                                           " px and the texture plane " + size_text(o.size) +
-                                           " px. They must have the same size.");
+        return fail(ErrorCode::kUsage,
+                    "The guide picture is " + size_text(o.guide->target.size()) +
+                        " px and the texture plane " + size_text(o.size) + " px.",
+                    "They must have the same size.");
     }
     if (o.guide && !(o.guide->weight >= 0 && o.guide->weight <= kLargestGuideWeight)) {
         return fail(ErrorCode::kUsage, "The guide's weight must lie between 0 and 1000.");
@@ -130,18 +131,18 @@ Image<std::int32_t, 2> atlas_positions(const SampleAtlas& atlas, const TexturePl
 Status check_sample(Size sample, int overlap_px) {
     if (sample.width < 2 * kLeastOverlap || sample.height < 2 * kLeastOverlap) {
         return fail(ErrorCode::kUsage,
-                    "The texture sample is " + size_text(sample) +
-                        " px, too small for synthesis. Use one of at least 24x24 px.");
+                    "The texture sample is " + size_text(sample) + " px, too small for synthesis.",
+                    "Use one of at least 24x24 px.");
     }
     if (overlap_px < kLeastOverlap) {
-        return fail(ErrorCode::kUsage,
-                    "The overlap is " + std::to_string(overlap_px) + " px. Use at least 12 px.");
+        return fail(ErrorCode::kUsage, "The overlap is " + std::to_string(overlap_px) + " px.",
+                    "Use at least 12 px.");
     }
     if (std::min(sample.width, sample.height) < overlap_px) {
         return fail(ErrorCode::kUsage,
                     "The texture sample is " + size_text(sample) +
-                        " px, smaller than the overlap of " + std::to_string(overlap_px) +
-                        " px. Use a larger sample, or an overlap of at most " +
+                        " px, smaller than the overlap of " + std::to_string(overlap_px) + " px.",
+                    "Use a larger sample, or an overlap of at most " +
                         std::to_string(std::min(sample.width, sample.height) / 2) + " px.");
     }
     return {};
@@ -154,8 +155,9 @@ Expected<TexturePlane> grow_plane(const std::vector<ViewU8x3>& samples, const Pl
         if (shows_sample(options.mode)) return lay_sample(samples.front(), options);
         return grow(samples, options, cancel, progress);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::kNoSpace, "Not enough memory for a texture plane of " +
-                                             size_text(options.size) + " px. Use a smaller size.");
+        return fail(ErrorCode::kNoSpace,
+                    "Not enough memory for a texture plane of " + size_text(options.size) + " px.",
+                    "Use a smaller size.");
     }
 }
 

@@ -97,7 +97,7 @@ void JointedParts::look(const SurfaceWalker& whole, const std::shared_ptr<const 
 }
 
 // Where the parts of the frame before have gone. Two may claim a pixel; the body has what is left.
-std::vector<JointedParts::Next> JointedParts::carried(const WalkStep& to) {
+std::vector<JointedParts::Next> JointedParts::propagated(const WalkStep& to) {
     const ViewU8x1 visible = to.frame->view().visible;
     std::vector<Matte> claims(parts_.size());
     parallel_for(parts_.size(), [&](std::size_t k) {
@@ -174,7 +174,7 @@ void JointedParts::split(std::size_t part, std::vector<Next>& next, const WalkSt
 }
 
 void JointedParts::advance(const WalkStep& to, const SurfaceWalkerOptions& options) {
-    std::vector<Next> next = carried(to);
+    std::vector<Next> next = propagated(to);
     const auto gather = [&](std::size_t k) {
         if (next[k].frame) return;
         next[k].frame = to.frame->part(next[k].matte, parts_[k].last.get());

@@ -55,7 +55,7 @@ class JointedParts {
         StepEvidence evidence;
     };
 
-    [[nodiscard]] std::vector<Next> carried(const WalkStep& to);
+    [[nodiscard]] std::vector<Next> propagated(const WalkStep& to);
     [[nodiscard]] std::vector<PartOutline> found_in(const Part& part, const Next& now,
                                                     const FlowField& prev_from_cur,
                                                     const SurfaceWalkerOptions& options) const;

@@ -220,15 +220,17 @@ TEST(Interface, AnErrorsFieldIsItsOptionOrItsPlaceInTheProject) {
         return error_json(error)["error"].value("field", "none");
     };
     const std::string wrong = "This is a string, but must be a number";
-    EXPECT_EQ(field({ErrorCode::kUnreadable, "regions[0].placement.scale: " + wrong, {"a.weft"}}),
-              "regions[0].placement.scale");
+    EXPECT_EQ(
+        field({ErrorCode::kUnreadable, "regions[0].placement.scale: " + wrong, "", {"a.weft"}}),
+        "regions[0].placement.scale");
     EXPECT_EQ(field({ErrorCode::kUsage,
-                     "No texture is set. Set one.",
+                     "No texture is set.",
+                     "Set one.",
                      {"regions[1] 'wall': texture.sample", "shot.weft"}}),
               "regions[1].texture.sample");
-    EXPECT_EQ(field({ErrorCode::kUsage, "--scale must be 1 to 2, not 0", {}}), "--scale");
-    EXPECT_EQ(field({ErrorCode::kUnreadable, "It is not valid JSON", {"bad.weft"}}), "none");
-    const auto refused = error_json({ErrorCode::kRefused, "No. Choose another.", {"a: b"}});
+    EXPECT_EQ(field({ErrorCode::kUsage, "--scale must be 1 to 2, not 0", "", {}}), "--scale");
+    EXPECT_EQ(field({ErrorCode::kUnreadable, "It is not valid JSON", "", {"bad.weft"}}), "none");
+    const auto refused = error_json({ErrorCode::kRefused, "No.", "Choose another.", {"a: b"}});
     EXPECT_EQ(Json::parse(refused["error"].dump()),
               Json::parse(R"({"code": 7, "name": "refused", "message": "a: b: No. Choose another.",
                               "remedy": "Choose another."})"));

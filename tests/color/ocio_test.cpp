@@ -101,8 +101,8 @@ TEST_F(Ocio, WithoutAConfigOnlyBuiltInNames) {
     const auto other = parse_color_space("ACEScg");
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(other.error().message, HasSubstr("'ACEScg'"));
-    EXPECT_THAT(other.error().message, HasSubstr("$OCIO"));
+    EXPECT_THAT(other.error().sentence(), HasSubstr("'ACEScg'"));
+    EXPECT_THAT(other.error().sentence(), HasSubstr("$OCIO"));
     EXPECT_EQ(make_color_transform({"ACEScg"}, {"srgb"}).error().code, ErrorCode::kUsage);
 }
 
@@ -118,7 +118,7 @@ TEST_F(Ocio, SpacesRolesAndAliases) {
     const auto other = parse_color_space("nowhere");
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(other.error().message, HasSubstr("swapped"));
+    EXPECT_THAT(other.error().sentence(), HasSubstr("swapped"));
 }
 
 TEST_F(Ocio, BuiltInSpacesMeetTheConfigInLinear) {
@@ -141,7 +141,7 @@ TEST_F(Ocio, ConfigWithoutAMeetingPlaceSaysSo) {
     const auto transform = make_color_transform({"srgb"}, {"doubled"});
     ASSERT_FALSE(transform);
     EXPECT_EQ(transform.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(transform.error().message, HasSubstr("Rec.709"));
+    EXPECT_THAT(transform.error().sentence(), HasSubstr("Rec.709"));
     EXPECT_TRUE(make_color_transform({"srgb"}, {"linear"}));
 }
 
@@ -203,12 +203,12 @@ TEST_F(Ocio, AViewThatCannotBeSaysWhy) {
     use("lin_rec709_srgb", std::string(kLinear) + kOthers);
     const auto none = make_screen_view({"wall", "Dim"});
     ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("'Dim'"));
+    EXPECT_THAT(none.error().sentence(), HasSubstr("'Dim'"));
 }
 
 TEST_F(Ocio, AViewWithoutAMeetingPlaceSaysSo) {
     use("doubled", kOthers);
-    EXPECT_THAT(make_screen_view({"wall", "Bright"}).error().message, HasSubstr("Rec.709"));
+    EXPECT_THAT(make_screen_view({"wall", "Bright"}).error().sentence(), HasSubstr("Rec.709"));
 }
 
 TEST_F(Ocio, TheTablesOfAConversionAreItsFiles) {
@@ -239,7 +239,7 @@ TEST_F(Ocio, BrokenConfigIsUnreadable) {
     const auto space = parse_color_space("doubled");
     ASSERT_FALSE(space);
     EXPECT_EQ(space.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(space.error().message, HasSubstr(path));
+    EXPECT_THAT(space.error().sentence(), HasSubstr(path));
     EXPECT_TRUE(parse_color_space("srgb"));
     setenv("OCIO", (folder_ / "none.ocio").string().c_str(), 1);
     EXPECT_EQ(parse_color_space("doubled").error().code, ErrorCode::kUnreadable);

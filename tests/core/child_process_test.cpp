@@ -84,7 +84,7 @@ TEST_F(ChildProcess, WhatCannotBeStartedIsAnError) {
     const auto none = start_process({"no-such-program-of-weft"}, {});
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().code, ErrorCode::kUnreadable);
-    EXPECT_NE(none.error().message.find("no-such-program-of-weft"), std::string::npos);
+    EXPECT_NE(none.error().sentence().find("no-such-program-of-weft"), std::string::npos);
     ProcessOptions options;
     options.folder = in("gone");
     EXPECT_FALSE(start_process({"true"}, options));

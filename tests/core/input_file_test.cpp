@@ -39,8 +39,9 @@ void expect_refused(const std::string& path, const std::string& reason) {
     const auto checked = check_input_file(path, "The track");
     ASSERT_FALSE(checked) << path;
     EXPECT_EQ(checked.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(checked.error().message, AllOf(HasSubstr("The track " + path), HasSubstr(reason)));
-    EXPECT_EQ(read_file(path, "The track").error().message, checked.error().message);
+    EXPECT_THAT(checked.error().sentence(),
+                AllOf(HasSubstr("The track " + path), HasSubstr(reason)));
+    EXPECT_EQ(read_file(path, "The track").error().sentence(), checked.error().sentence());
 }
 
 TEST_F(InputFileTest, ReadsWhatStandsInAFileOrBehindALink) {
@@ -80,11 +81,11 @@ TEST_F(InputFileTest, HoldsToItsLimit) {
     EXPECT_EQ(read_file(in("a"), "The track", 1000).value().size(), 1000u);
     const auto refused = read_file(in("a"), "The track", 999);
     ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("larger than"));
+    EXPECT_THAT(refused.error().sentence(), HasSubstr("larger than"));
     // A sparse file of 3 GB takes no room; nothing of it may be read.
     put("sparse", "");
     fs::resize_file(in("sparse"), std::uint64_t{3} << 30);
-    EXPECT_THAT(read_file(in("sparse"), "The track").error().message,
+    EXPECT_THAT(read_file(in("sparse"), "The track").error().sentence(),
                 HasSubstr("larger than 32 MB"));
 }
 

@@ -44,7 +44,7 @@ TEST(KeyedNumbers, KeysAreSetReplacedAndErased) {
 TEST(KeyedNumbers, TextIsReadBackToTheSameNumbers) {
     const KeyedNumbers keys{{{-3, {1.25, -7}}, {12, {0, 0.1}}, {90, {1e-7, 1.0 / 3}}}};
     const auto again = parse_keyed_numbers(keyed_text(keys), 2);
-    ASSERT_TRUE(again) << again.error().message;
+    ASSERT_TRUE(again) << again.error().sentence();
     EXPECT_EQ(*again, keys);
 }
 
@@ -119,7 +119,7 @@ TEST(KeyedNumbers, InterpolationIsReadBackFromText) {
     EXPECT_EQ(parse_keyed_numbers(keyed_text(keys), 2).value(), keys);
     EXPECT_EQ(parse_key("12:1:linear", true, 1)->after, KeyInterpolation::kLinear);
     EXPECT_EQ(name_of(*parse_interpolation("hold")), "hold");
-    EXPECT_NE(parse_interpolation("bezier").error().message.find("linear, smooth or hold"),
+    EXPECT_NE(parse_interpolation("bezier").error().sentence().find("linear, smooth or hold"),
               std::string::npos);
 }
 

@@ -108,7 +108,7 @@ TEST_F(Parallel, TheErrorOfTheLowestIndexIsReturned) {
         return {};
     });
     ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().message, "3");
+    EXPECT_EQ(status.error().sentence(), "3");
     EXPECT_EQ(calls, 20);
     EXPECT_TRUE(parallel_try(0, [](std::size_t) { return Status{}; }));
 }

@@ -154,7 +154,7 @@ TEST(DrawnSurface, StrokesThatCrossAreRefused) {
     const auto crossing =
         drawn_plane({{FormGuideKind::kParallel, {10, 10, 90, 90, 10, 90, 90, 10}}}, {kSize, {}});
     ASSERT_FALSE(crossing);
-    EXPECT_THAT(crossing.error().message, HasSubstr("cross each other"));
+    EXPECT_THAT(crossing.error().sentence(), HasSubstr("cross each other"));
     EXPECT_FALSE(drawn_plane({{FormGuideKind::kParallel, {10, 10, 90, 90}}}, {kSize, {}}));
 }
 
@@ -225,7 +225,7 @@ TEST(DrawnSurface, ACylinderThatPointsAtTheCameraIsRefused) {
     const auto drawn =
         drawn_surface({FormGuideKind::kCylinder, {150, 110, 165, 125, 80, 10}}, {kSize, {}});
     ASSERT_FALSE(drawn);
-    EXPECT_THAT(drawn.error().message, HasSubstr("point at the camera"));
+    EXPECT_THAT(drawn.error().sentence(), HasSubstr("point at the camera"));
 }
 
 TEST(DrawnSurface, NothingIsSeenBesideARoundThing) {

@@ -48,7 +48,7 @@ TEST(PlanarTracker, RefusesWhatIsNoPlane) {
     PlanarTracker few({{10, 10}, {20, 10}, {20, 20}});
     const Status small = few.add(1, LatticeField(kTrackPlate, 8));
     ASSERT_FALSE(small);
-    EXPECT_NE(small.error().message.find("too small"), std::string::npos);
+    EXPECT_NE(small.error().sentence().find("too small"), std::string::npos);
     LatticeField folded(kTrackPlate, 8);
     for (int j = 0; j < folded.nodes().height(); ++j)
         for (int i = 0; i < folded.nodes().width(); ++i) {

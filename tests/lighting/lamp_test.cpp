@@ -11,7 +11,7 @@ constexpr const char* kTwo = "point 10,20 30 1.5; gradient 1: 0,0 0,9 1 2 | 11: 
 
 TEST(Lamps, TextIsReadBackToTheSameLamps) {
     const auto lamps = parse_lamps(kTwo);
-    ASSERT_TRUE(lamps) << lamps.error().message;
+    ASSERT_TRUE(lamps) << lamps.error().sentence();
     ASSERT_THAT(*lamps, SizeIs(2));
     EXPECT_EQ((*lamps)[1].kind, LampKind::kGradient);
     EXPECT_EQ((*lamps)[1].numbers.at(6)[5], 3);

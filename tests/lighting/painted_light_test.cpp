@@ -9,7 +9,7 @@ namespace {
 
 TEST(PaintedLight, APointIsBrightInTheMiddleAndEndsAtItsRadius) {
     const auto lamps = parse_lamps("point 50,40 20 3");
-    ASSERT_TRUE(lamps) << lamps.error().message;
+    ASSERT_TRUE(lamps) << lamps.error().sentence();
     const Shading s = painted_shading(*lamps, 1, {120, 90});
     EXPECT_NEAR(s.value.at(25, 20), 3.0f, 0.05f);
     EXPECT_EQ(s.value.at(25, 33), 1.0f);
@@ -25,7 +25,7 @@ TEST(PaintedLight, DirectionalLightIsStrongestAtTheSideItComesFrom) {
 
 TEST(PaintedLight, KeysAreInterpolatedAndLampsMultiply) {
     const auto lamps = parse_lamps("gradient 1: 0,0 0,10 2 2 | 11: 0,0 0,10 4 4; directional 0 1");
-    ASSERT_TRUE(lamps) << lamps.error().message;
+    ASSERT_TRUE(lamps) << lamps.error().sentence();
     EXPECT_FLOAT_EQ(painted_shading(*lamps, 6, {8, 8}).value.at(1, 1), 3.0f);
     EXPECT_FLOAT_EQ(painted_shading(*lamps, -5, {8, 8}).value.at(1, 1), 2.0f);
     EXPECT_FLOAT_EQ(painted_shading(*lamps, 50, {8, 8}).value.at(1, 1), 4.0f);
@@ -42,7 +42,7 @@ TEST(PaintedLight, MistakesAreNamed) {
 
 TEST(PaintedLight, StrengthMayHaveKeys) {
     const auto keys = parse_keyed_numbers("1:1  11:0.5");
-    ASSERT_TRUE(keys) << keys.error().message;
+    ASSERT_TRUE(keys) << keys.error().sentence();
     EXPECT_FLOAT_EQ(keys->float_at(6)[0], 0.75f);
     EXPECT_TRUE(parse_keyed_numbers("")->empty());
     EXPECT_FALSE(parse_keyed_numbers("1:1 1:2"));

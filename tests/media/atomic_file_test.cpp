@@ -85,7 +85,7 @@ TEST_F(AtomicFile, FullDiskLeavesNothingBehind) {
         const Status status = write_image(in(name), noise, {}, options);
         ASSERT_FALSE(status) << name;
         EXPECT_EQ(status.error().code, ErrorCode::kNoSpace) << status.error().text();
-        EXPECT_THAT(status.error().message, HasSubstr(name));
+        EXPECT_THAT(status.error().sentence(), HasSubstr(name));
         EXPECT_THAT(names(), IsEmpty()) << name;
     }
     const std::string text(30000, 'x');
@@ -117,7 +117,7 @@ TEST_F(AtomicFile, UnwritablePlacesAreUnreadable) {
         const Status status = write_image(in(name), image, {}, {});
         ASSERT_FALSE(status) << name;
         EXPECT_EQ(status.error().code, ErrorCode::kUnreadable) << status.error().text();
-        EXPECT_THAT(status.error().message, HasSubstr(name));
+        EXPECT_THAT(status.error().sentence(), HasSubstr(name));
     }
     EXPECT_THAT(names(), ElementsAre("file", "folder.png"));
 }

@@ -47,6 +47,10 @@ void fill_bars(AVFrame& frame, const std::vector<Codes>& bars) {
 
 }  // namespace
 
+bool has_encoder(const std::string& name) {
+    return avcodec_find_encoder_by_name(name.c_str()) != nullptr;
+}
+
 void write_bars(const std::string& path, const CodedMovie& movie, const std::vector<Codes>& bars) {
     write_frames(path, movie, std::vector<std::vector<Codes>>(movie.stamps.size(), bars));
 }
@@ -55,7 +59,9 @@ void write_frames(const std::string& path, const CodedMovie& movie,
                   const std::vector<std::vector<Codes>>& frames) {
     AVFormatContext* file = nullptr;
     need(avformat_alloc_output_context2(&file, nullptr, nullptr, path.c_str()) >= 0, "container");
-    AVCodecContext* codec = avcodec_alloc_context3(avcodec_find_encoder(AV_CODEC_ID_FFV1));
+    AVCodecContext* codec = avcodec_alloc_context3(
+        movie.encoder.empty() ? avcodec_find_encoder(AV_CODEC_ID_FFV1)
+                              : avcodec_find_encoder_by_name(movie.encoder.c_str()));
     codec->width = movie.size.width;
     codec->height = movie.size.height;
     codec->time_base = {1, 24};
@@ -63,7 +69,7 @@ void write_frames(const std::string& path, const CodedMovie& movie,
     codec->colorspace = movie.matrix;
     codec->color_range = movie.range;
     codec->color_trc = movie.transfer;
-    codec->level = 3;
+    if (movie.encoder.empty()) codec->level = 3;
     codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     need(avcodec_open2(codec, nullptr, nullptr) >= 0, "encoder");
     AVStream* stream = avformat_new_stream(file, nullptr);

@@ -80,9 +80,9 @@ TEST_F(CryptomatteTest, WhatIsNotThereIsSaid) {
     put("a.exr", kManifest);
     const auto none = check_cryptomatte_names({in("a.exr"), in("a.exr")}, "Wall,Door");
     ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("'Door'"));
-    EXPECT_THAT(none.error().message, HasSubstr("Ball, Wall"));
-    EXPECT_THAT(read_cryptomatte(in("a.exr"), "Wall", {5, 1}).error().message, HasSubstr("4x1"));
+    EXPECT_THAT(none.error().sentence(), HasSubstr("'Door'"));
+    EXPECT_THAT(none.error().sentence(), HasSubstr("Ball, Wall"));
+    EXPECT_THAT(read_cryptomatte(in("a.exr"), "Wall", {5, 1}).error().sentence(), HasSubstr("4x1"));
     EXPECT_EQ(list_cryptomatte(in("b.exr")).error().code, ErrorCode::kMissingFrames);
 }
 
@@ -133,7 +133,7 @@ TEST_F(CryptomatteTest, IdsThatHalfHasRoundedAreNamed) {
     const auto lost = read_cryptomatte(in("a.exr"), "Wall", {});
     ASSERT_FALSE(lost);
     EXPECT_EQ(lost.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(lost.error().message, HasSubstr("rounded"));
+    EXPECT_THAT(lost.error().sentence(), HasSubstr("rounded"));
 }
 
 // A File Output node names the Cryptomatte by its slot, and its channels in capital letters.
@@ -149,7 +149,7 @@ TEST_F(CryptomatteTest, CutNamesAreTheCauseOfLostChannels) {
         {layer + "00.", layer + "01.", layer + "02.", "V"});
     const auto lost = read_cryptomatte(in("a.exr"), "Wall", {});
     ASSERT_FALSE(lost);
-    EXPECT_THAT(lost.error().message, HasSubstr("64 characters"));
+    EXPECT_THAT(lost.error().sentence(), HasSubstr("64 characters"));
 }
 
 // Two renders of one scene list the same objects.
@@ -246,7 +246,7 @@ TEST_F(MotionPass, WhatIsNotThereIsListed) {
     put("a.exr", {"R", "G", "B"}, {0, 0, 0});
     const auto none = read_motion(in("a.exr"), {MotionConvention::kBlender, kForward, ""}, {8, 4});
     ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("R, G, B"));
+    EXPECT_THAT(none.error().sentence(), HasSubstr("R, G, B"));
     EXPECT_FALSE(read_motion(in("a.exr"), {MotionConvention::kFlame, kForward, ""}, {9, 4}));
 }
 
@@ -257,6 +257,45 @@ TEST_F(MotionPass, UvPassesHaveUAndVOrRAndG) {
     EXPECT_EQ(read_uv(in("st.exr"), "", {8, 4}).value().at(1, 1, 0), 0.5f);
     EXPECT_EQ(read_uv(in("uv.exr"), "shot.UV", {8, 4}).value().at(1, 1, 0), 0.25f);
     EXPECT_FALSE(read_uv(in("uv.exr"), "", {8, 5}));
+}
+
+// Houdini's and USD's names are paths.
+TEST_F(CryptomatteTest, ANameMayBeginWithASlash) {
+    put("a.exr", R"({"/obj/Wall":"2c388f97","Ball":"74d3ebe9"})");
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "/obj/Wall", {}).value().at(0, 0), 255);
+    EXPECT_EQ(read_cryptomatte(in("a.exr"), "obj//obj/Wall", {}).value().at(0, 0), 255);
+    EXPECT_TRUE(check_cryptomatte_names({in("a.exr")}, "/obj/Wall"));
+}
+
+TEST_F(CryptomatteTest, AFilteredOneIsRefused) {
+    OIIO::ImageSpec spec(4, 4, 5, OIIO::TypeFloat);
+    spec.channelnames = {"R", "obj00.r", "obj00.g", "obj00.b", "obj00.a"};
+    spec.attribute("cryptomatte/1234567/name", "obj");
+    spec.attribute("cryptomatte/1234567/manifest", kManifest);
+    const auto put_ids = [&](const char* name, std::uint32_t beside) {
+        std::vector<float> data;
+        for (int i = 0; i < 16; ++i)
+            data.insert(
+                data.end(),
+                {0, std::bit_cast<float>(cryptomatte_id("Wall") + (i > 5 ? beside : 0)), 1, 0, 0});
+        auto output = OIIO::ImageOutput::create(in(name));
+        ASSERT_TRUE(output->open(in(name), spec));
+        ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+        ASSERT_TRUE(output->close());
+    };
+    put_ids("whole.exr", 0);
+    EXPECT_TRUE(read_cryptomatte(in("whole.exr"), "Wall", {}));
+    put_ids("scaled.exr", 3);
+    EXPECT_THAT(read_cryptomatte(in("scaled.exr"), "Wall", {}).error().sentence(),
+                HasSubstr("scaled, turned or blurred"));
+    put_ids("others.exr", 4000);
+    EXPECT_TRUE(read_cryptomatte(in("others.exr"), "Wall", {})) << "an object without a name";
+}
+
+TEST_F(CryptomatteTest, WithoutAManifestNoNamesAreListed) {
+    put("a.exr", "");
+    EXPECT_THAT(check_cryptomatte_names({in("a.exr")}, "Bal").error().sentence(),
+                HasSubstr("lists no names"));
 }
 
 }  // namespace

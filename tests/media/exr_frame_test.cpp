@@ -187,7 +187,7 @@ TEST_F(ExrFrameTest, ANamedLayerIsReplacedAndTheOthersStay) {
     const ImageF3 rgb(16, 10, 2.0f);
     const auto bad = write_exr(in("out.exr"), {rgb, {}, in("plate.exr"), "beauty", {}, {}}, {});
     ASSERT_FALSE(bad);
-    EXPECT_THAT(bad.error().message, HasSubstr("beauty"));
+    EXPECT_THAT(bad.error().sentence(), HasSubstr("beauty"));
     EXPECT_FALSE(is_exr_with_colour(in("plate.exr"), "beauty"));
     EXPECT_TRUE(is_exr_with_colour(in("plate.exr"), ""));
 }
@@ -296,7 +296,7 @@ TEST_F(ExrFrameTest, ALayerIsNotThePicture) {
         write_exr(in("second.exr"), {rgb, {}, in("first.exr"), "light", {}, layers}, {});
     ASSERT_FALSE(bad);
     EXPECT_EQ(bad.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(bad.error().message, HasSubstr(std::string(setting::kLayersOutput)));
+    EXPECT_THAT(bad.error().sentence(), HasSubstr(std::string(setting::kLayersOutput)));
 }
 
 }  // namespace

@@ -86,9 +86,9 @@ TEST_F(Exr, UnknownLayerListsThoseThereAre) {
         const auto frame = read_image(in("a.exr"), layer);
         ASSERT_FALSE(frame);
         EXPECT_EQ(frame.error().code, ErrorCode::kUnreadable);
-        EXPECT_THAT(frame.error().message, HasSubstr("sky.left, spec"));
+        EXPECT_THAT(frame.error().sentence(), HasSubstr("sky.left, spec"));
     }
-    EXPECT_THAT(read_image(in("a.exr"), "albedo").error().message, HasSubstr("'albedo'"));
+    EXPECT_THAT(read_image(in("a.exr"), "albedo").error().sentence(), HasSubstr("'albedo'"));
 }
 
 TEST_F(Exr, PartsAreLayersToo) {
@@ -151,6 +151,21 @@ TEST_F(Exr, RateAndDepthComeFromTheHeader) {
     const auto plate = open_plate(in("p.####.exr"), {}).value();
     EXPECT_EQ(plate->fps(), 25.0);
     EXPECT_EQ(plate->depth(), PixelDepth::kHalf);
+}
+
+TEST_F(Exr, LuminanceWithChromaIsNotGrey) {
+    put_layers(in("yc.exr"), {"Y", "RY", "BY"});
+    const auto frame = read_image(in("yc.exr"));
+    ASSERT_FALSE(frame);
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("chroma"));
+    put_layers(in("y.exr"), {"Y"});
+    EXPECT_EQ(read_image(in("y.exr")).value().rgb, constant(0.5f, 0.5f, 0.5f));
+}
+
+// Karma and Mantra.
+TEST_F(Exr, TheLayerCIsThePicture) {
+    put_layers(in("c.exr"), {"C.r", "C.g", "C.b", "C.a", "depth.Z"});
+    EXPECT_EQ(read_image(in("c.exr")).value().rgb, constant(0.5f, 1.5f, 2.5f));
 }
 
 }  // namespace

@@ -156,6 +156,17 @@ TEST_F(FileColorTest, PngGammaAndPrimariesAreSaidWithoutTheSrgbChunk) {
                   png_set_cHRM(p, i, 0.3127, 0.329, 0.68, 0.32, 0.265, 0.69, 0.15, 0.06);
               }),
               "has the primaries of P3-D65");
+    const auto coded = [](png_byte transfer) {
+        return [transfer](png_structp p, png_infop i) {
+            png_unknown_chunk chunk{{'c', 'I', 'C', 'P', 0}, nullptr, 4, PNG_HAVE_IHDR};
+            png_byte data[4]{9, transfer, 0, 1};
+            chunk.data = data;
+            png_set_keep_unknown_chunks(p, PNG_HANDLE_CHUNK_ALWAYS, chunk.name, 1);
+            png_set_unknown_chunks(p, i, &chunk, 1);
+        };
+    };
+    EXPECT_EQ(note_with(coded(16)), "is an HDR picture (PQ or HLG)");
+    EXPECT_EQ(note_with(coded(13)), "") << "sRGB";
 }
 
 // ---- how the camera was held -------------------------------------------------------------------

@@ -78,9 +78,9 @@ TEST_F(FlowFile, BadFilesAreNamed) {
         const auto flow = read_flow(in(name), {3, 2});
         ASSERT_FALSE(flow) << name;
         EXPECT_EQ(flow.error().code, ErrorCode::kUnreadable);
-        EXPECT_THAT(flow.error().message, HasSubstr(name));
+        EXPECT_THAT(flow.error().sentence(), HasSubstr(name));
     }
-    EXPECT_THAT(read_flow(in("other.flo"), {3, 2}).error().message, HasSubstr("2x3"));
+    EXPECT_THAT(read_flow(in("other.flo"), {3, 2}).error().sentence(), HasSubstr("2x3"));
     EXPECT_EQ(read_flow(in("none.flo"), {3, 2}).error().code, ErrorCode::kMissingFrames);
 }
 

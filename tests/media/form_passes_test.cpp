@@ -59,7 +59,7 @@ TEST_F(FormPasses, PositionPassesAreFoundByTheirNames) {
     put("none.exr", {"R", "G", "B", "A", "AP.R"}, {0, 0, 0, 1, 0});
     const auto none = at("none.exr");
     ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("AP: R"));
+    EXPECT_THAT(none.error().sentence(), HasSubstr("AP: R"));
 }
 
 TEST_F(FormPasses, NormalsAreVectorsOrCodes) {
@@ -82,7 +82,7 @@ TEST_F(FormPasses, NormalsAreVectorsOrCodes) {
     EXPECT_EQ(at("map.png").value().at(3, 2, 1), 1);
     put("none.exr", {"R", "G", "B", "A", "IN.R"}, {0, 0, 0, 1, 0});
     ASSERT_FALSE(at("none.exr"));
-    EXPECT_THAT(at("none.exr").error().message, HasSubstr("no normal pass"));
+    EXPECT_THAT(at("none.exr").error().sentence(), HasSubstr("no normal pass"));
     EXPECT_FALSE(read_normals(in("map.png"), "", {9, 4})) << "of another size";
     EXPECT_EQ(at("not there.exr").error().code, ErrorCode::kMissingFrames);
 }
@@ -101,10 +101,10 @@ TEST_F(FormPasses, DepthIsInAChannelOfItsName) {
     EXPECT_EQ(at("alone.exr").value().at(2, 1), 7);
     put("none.exr", {"R", "G", "B", "A", "N.X", "N.Y", "N.Z"}, {0, 0, 0, 1, 0, 0, 1});
     ASSERT_FALSE(at("none.exr"));
-    EXPECT_THAT(at("none.exr").error().message, HasSubstr("no depth pass"));
+    EXPECT_THAT(at("none.exr").error().sentence(), HasSubstr("no depth pass"));
     ASSERT_TRUE(write_image(in("view.png"), ImageF3(Size{8, 4}, 0.5f), {}, {}));
     ASSERT_FALSE(at("view.png"));
-    EXPECT_THAT(at("view.png").error().message, HasSubstr("distances"));
+    EXPECT_THAT(at("view.png").error().sentence(), HasSubstr("distances"));
     EXPECT_FALSE(read_depth(in("alone.exr"), "", {8, 5}));
 }
 
@@ -139,6 +139,19 @@ TEST_F(FormPasses, TheHeaderHasTheCamerasAxes) {
                 axes);
     EXPECT_FALSE(with("worldToCamera", {}));
     EXPECT_FALSE(camera_with({}).camera_from_world);
+}
+
+// As V-Ray and Redshift can write them.
+TEST_F(FormPasses, NormalsInFloatsMayBeCodes) {
+    const auto at = [&](const char* file) { return read_normals(in(file), "", {8, 4}).value(); };
+    put("codes.exr", {"N.X", "N.Y", "N.Z"}, {0.8f, 0.5f, 0.9f});
+    EXPECT_NEAR(at("codes.exr").at(1, 1, 0), 0.6f, 1e-6);
+    EXPECT_NEAR(at("codes.exr").at(1, 1, 1), 0, 1e-6);
+    EXPECT_NEAR(at("codes.exr").at(1, 1, 2), 0.8f, 1e-6);
+    put("vectors.exr", {"N.X", "N.Y", "N.Z"}, {0.6f, 0, 0.8f});
+    EXPECT_EQ(at("vectors.exr").at(1, 1, 2), 0.8f);
+    put("short.exr", {"N.X", "N.Y", "N.Z"}, {0.5f, -1, 0});
+    EXPECT_EQ(at("short.exr").at(1, 1, 1), -1) << "vectors of any length";
 }
 
 }  // namespace

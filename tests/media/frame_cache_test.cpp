@@ -96,7 +96,7 @@ TEST(FrameCache, ErrorsAreNotKept) {
     const auto reader = std::make_shared<CountingReader>();
     const auto cache = cached(reader, 4 * kFrame_bytes);
     EXPECT_EQ(cache->read_shared(99).error().code, ErrorCode::kUnreadable);
-    EXPECT_EQ(cache->read(99).error().message, "broken");
+    EXPECT_EQ(cache->read(99).error().sentence(), "broken");
     EXPECT_EQ(reader->reads[99], 2);
 }
 

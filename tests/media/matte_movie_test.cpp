@@ -89,7 +89,7 @@ TEST_F(MovieMatte, AChannelMayBeGivenAndTheMatteInverted) {
     const auto grey =
         files(movie("g.mkv", AV_PIX_FMT_GRAY8, {{{1}}})).read(0, {{}, "A"}, kMatteMovieSize);
     ASSERT_FALSE(grey);
-    EXPECT_THAT(grey.error().message, HasSubstr("no channel 'A'"));
+    EXPECT_THAT(grey.error().sentence(), HasSubstr("no channel 'A'"));
 }
 
 TEST_F(MovieMatte, WhatItCannotBeIsSaid) {
@@ -97,7 +97,7 @@ TEST_F(MovieMatte, WhatItCannotBeIsSaid) {
     const auto size = matte.read(0, {}, {640, 360});
     ASSERT_FALSE(size);
     EXPECT_EQ(size.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(size.error().message, HasSubstr("64x48"));
+    EXPECT_THAT(size.error().sentence(), HasSubstr("64x48"));
     MatteSelect objects;
     objects.crypto = "hero";
     EXPECT_EQ(matte.read(0, objects, kMatteMovieSize).error().code, ErrorCode::kUsage);
@@ -129,6 +129,29 @@ TEST_F(MovieMatte, PicturesAreReadAsBefore) {
     EXPECT_TRUE(one.is_single());
     EXPECT_THAT(one.list_frames().value(), IsEmpty());
     EXPECT_EQ(one.read(55, {}, {4, 1}).value(), Matte(4, 1, 77));
+}
+
+// FFmpeg's own decoders of VP8 and VP9 leave the alpha out.
+TEST_F(MovieMatte, TheAlphaOfWebmIsRead) {
+    if (!has_encoder("libvpx-vp9")) GTEST_SKIP() << "FFmpeg has no encoder for VP9 here";
+    CodedMovie out;
+    out.format = AV_PIX_FMT_YUVA420P;
+    out.size = kMatteMovieSize;
+    out.stamps = {0, 1};
+    out.encoder = "libvpx-vp9";
+    const std::vector<Codes> bars{{200, 90, 200, 0}, {60, 128, 128, 255}};
+    write_frames(in("m.webm"), out, {bars, bars});
+    const MatteFiles matte = files(in("m.webm"));
+    EXPECT_LT(left(matte.read(0, {}, kMatteMovieSize)), 3);
+    EXPECT_GT(right(matte.read(0, {}, kMatteMovieSize)), 252);
+}
+
+TEST_F(MovieMatte, ColoursAreNotCoverage) {
+    const auto colours =
+        MatteMovie::open(movie("c.mkv", AV_PIX_FMT_YUV444P, {{{81, 90, 240}, {145, 54, 34}}}));
+    EXPECT_THAT(colours.value()->judge().error().sentence(), HasSubstr("has colours"));
+    const auto grey = MatteMovie::open(movie("g.mkv", AV_PIX_FMT_GRAY8, {{{0}, {255}}}));
+    EXPECT_EQ(grey.value()->judge().value(), "");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "engine/media/image_files.h"
+#include "engine/media/matte_look.h"
 #include "tests/media/media_fixture.h"
 #include "tests/support/places.h"
 
@@ -69,7 +70,7 @@ TEST_F(MatteFile, WholeNumbersInFloatsAreIds) {
     const auto fractions = read_matte(in("ids.exr"), named, {2, 1});
     ASSERT_FALSE(fractions);
     EXPECT_EQ(fractions.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(fractions.error().message, HasSubstr("fractions"));
+    EXPECT_THAT(fractions.error().sentence(), HasSubstr("fractions"));
 }
 
 TEST_F(MatteFile, ChannelsAreChosen) {
@@ -95,7 +96,7 @@ TEST_F(MatteFile, NamedExrChannel) {
     const auto other = read_matte(in("a.exr"), channel("mask.dog"), {2, 1});
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(other.error().message, HasSubstr("mask.fox"));
+    EXPECT_THAT(other.error().sentence(), HasSubstr("mask.fox"));
 }
 
 TEST_F(MatteFile, MissingChannelIsUnreadable) {
@@ -159,7 +160,7 @@ TEST_F(MatteFile, AMovieIsNotCalledDamaged) {
     const auto movie = read_matte(in("m.mkv"), {}, {});
     ASSERT_FALSE(movie);
     EXPECT_EQ(movie.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(movie.error().message, HasSubstr("is a movie"));
+    EXPECT_THAT(movie.error().sentence(), HasSubstr("is a movie"));
 }
 
 TEST_F(MatteFile, WrongSizeGivesBothSizes) {
@@ -167,15 +168,15 @@ TEST_F(MatteFile, WrongSizeGivesBothSizes) {
     const auto matte = read_matte(in("a.png"), {}, {640, 360});
     ASSERT_FALSE(matte);
     EXPECT_EQ(matte.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(matte.error().message, HasSubstr("4x1"));
-    EXPECT_THAT(matte.error().message, HasSubstr("640x360"));
+    EXPECT_THAT(matte.error().sentence(), HasSubstr("4x1"));
+    EXPECT_THAT(matte.error().sentence(), HasSubstr("640x360"));
 }
 
 TEST_F(MatteFile, AbsentFileIsMissing) {
     const auto matte = read_matte(in("none.png"), {}, {4, 1});
     ASSERT_FALSE(matte);
     EXPECT_EQ(matte.error().code, ErrorCode::kMissingFrames);
-    EXPECT_THAT(matte.error().message, HasSubstr("none.png"));
+    EXPECT_THAT(matte.error().sentence(), HasSubstr("none.png"));
 }
 
 TEST_F(MatteFile, WrittenMatteComesBack) {
@@ -200,6 +201,66 @@ TEST(MatteData, IdsOfTheRenderedClip) {
             covered += matte.data()[i] == 255;
     }
     EXPECT_EQ(covered, 854 * 480);  // every pixel is of exactly one object
+}
+
+ImageF3 shown(const std::vector<std::array<float, 3>>& pixels) {
+    ImageF3 out(static_cast<int>(pixels.size()), 1);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        std::copy(pixels[i].begin(), pixels[i].end(), out.data() + 3 * i);
+    return out;
+}
+
+TEST(MatteJudge, WhiteOnBlackIsAMatteWhateverItsOtherFilesAre) {
+    MatteJudge judge;
+    judge.add(look_at_matte(shown({{0, 0, 0}}), {}));
+    EXPECT_FALSE(judge.is_satisfied()) << "an empty frame says nothing";
+    judge.add(look_at_matte(shown({{0, 0, 0}, {1, 1, 1}, {0.3f, 0.3f, 0.3f}}), {}));
+    EXPECT_TRUE(judge.is_satisfied());
+    EXPECT_TRUE(judge.check("m.png"));
+    EXPECT_EQ(judge.warning("m.png"), "");
+}
+
+TEST(MatteJudge, ColoursAreNotCoverage) {
+    MatteJudge judge;
+    judge.add(look_at_matte(shown({{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}), {}));
+    EXPECT_FALSE(judge.is_satisfied());
+    const Status status = judge.check("rgb.png");
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(status.error().sentence(), HasSubstr("rgb.png has colours"));
+    MatteJudge by_alpha;
+    by_alpha.add(look_at_matte(shown({{1, 0, 0}, {0, 1, 0}}), ImageF1(2, 1, 1.0f)));
+    EXPECT_TRUE(by_alpha.check("rgba.png")) << "its alpha is read";
+}
+
+TEST(MatteJudge, IdsAreNotCoverage) {
+    MatteJudge ids;
+    ids.add(look_at_matte(shown({{0, 0, 0}, {1 / 255.f, 1 / 255.f, 1 / 255.f}}), {}));
+    EXPECT_THAT(ids.check("ids.png").error().sentence(), HasSubstr("up to 1 of 255"));
+    MatteJudge empty;
+    empty.add(look_at_matte(shown({{0, 0, 0}, {0, 0, 0}}), {}));
+    EXPECT_TRUE(empty.check("none.png")) << "said by frame, elsewhere";
+}
+
+TEST(MatteJudge, SaysWhatIsNowhereEmptyOrNowhereFull) {
+    MatteJudge levels;
+    levels.add(look_at_matte(shown({{0.063f, 0.063f, 0.063f}, {0.92f, 0.92f, 0.92f}}), {}));
+    EXPECT_TRUE(levels.check("m.png"));
+    EXPECT_THAT(levels.warning("m.png"), HasSubstr("nowhere below 6 %"));
+    MatteJudge glass;
+    glass.add(look_at_matte(shown({{0, 0, 0}, {0.4f, 0.4f, 0.4f}}), {}));
+    EXPECT_THAT(glass.warning("m.png"), HasSubstr("by more than 40 %"));
+    MatteJudge all;
+    all.add(look_at_matte(shown({{1, 1, 1}, {1, 1, 1}}), {}));
+    EXPECT_EQ(all.warning("m.png"), "") << "all of the picture";
+}
+
+TEST_F(MatteFile, AlphaIsJudgedWhereItIsRead) {
+    put<std::uint8_t>("red.png", 4, {200, 0, 0, 0, 200, 0, 0, 255}, OIIO::TypeUInt8);
+    EXPECT_EQ(judge_mattes("red", {in("red.png")}, {}).value(), "");
+    put<std::uint8_t>("opaque.png", 4, {200, 0, 0, 255, 0, 0, 200, 255}, OIIO::TypeUInt8);
+    EXPECT_FALSE(judge_mattes("opaque", {in("opaque.png")}, {}));
+    EXPECT_EQ(judge_mattes("none", {in("none.png")}, {}).value(), "");
 }
 
 }  // namespace

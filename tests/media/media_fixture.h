@@ -103,8 +103,8 @@ class ReadBackTest : public MediaTest {
     static void expect_refused(const Status& status, const std::string& part) {
         ASSERT_FALSE(status);
         EXPECT_EQ(status.error().code, ErrorCode::kRenderFailed);
-        EXPECT_THAT(status.error().message, ::testing::HasSubstr("shown."));
-        EXPECT_THAT(status.error().message, ::testing::HasSubstr(part));
+        EXPECT_THAT(status.error().sentence(), ::testing::HasSubstr("shown."));
+        EXPECT_THAT(status.error().sentence(), ::testing::HasSubstr(part));
     }
 };
 

@@ -162,7 +162,7 @@ TEST_F(MovieFile, SoundWithoutPicturesIsSaid) {
     const auto plate = open_plate(in("a.mov"), {});
     ASSERT_FALSE(plate);
     EXPECT_EQ(plate.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(plate.error().message, HasSubstr("sound but no pictures"));
+    EXPECT_THAT(plate.error().sentence(), HasSubstr("sound but no pictures"));
 }
 
 }  // namespace

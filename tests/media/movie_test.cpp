@@ -65,9 +65,9 @@ TEST_F(Movie, InterlacedIsRefusedAndSaysWhatToDo) {
         ASSERT_EQ(plate.has_value(), !interlaced);
         if (plate) continue;
         EXPECT_EQ(plate.error().code, ErrorCode::kUnreadable);
-        EXPECT_THAT(plate.error().message, HasSubstr("a.mkv"));
-        EXPECT_THAT(plate.error().message, HasSubstr("not flagged"));
-        EXPECT_THAT(plate.error().message, HasSubstr("Deinterlace it first"));
+        EXPECT_THAT(plate.error().sentence(), HasSubstr("a.mkv"));
+        EXPECT_THAT(plate.error().sentence(), HasSubstr("not flagged"));
+        EXPECT_THAT(plate.error().sentence(), HasSubstr("Deinterlace it first"));
     }
 }
 

@@ -18,8 +18,8 @@ TEST_F(NoMovies, ReadingIsRefused) {
     const auto plate = open_plate(in("plate.mp4"), {});
     ASSERT_FALSE(plate);
     EXPECT_EQ(plate.error().code, ErrorCode::kNoBackend);
-    EXPECT_THAT(plate.error().message, HasSubstr("plate.mp4: this build has no movies"));
-    EXPECT_THAT(plate.error().message, HasSubstr("numbered frames"));
+    EXPECT_THAT(plate.error().sentence(), HasSubstr("plate.mp4: this build has no movies"));
+    EXPECT_THAT(plate.error().sentence(), HasSubstr("numbered frames"));
     EXPECT_THAT(movie_library(), IsEmpty());
 }
 
@@ -31,7 +31,7 @@ TEST_F(NoMovies, WritingIsRefusedAndLeavesNothing) {
     const auto movie = open_movie(in("review.mp4"), {64, 48}, 24);
     ASSERT_FALSE(movie);
     EXPECT_EQ(movie.error().code, ErrorCode::kNoBackend);
-    EXPECT_THAT(movie.error().message, HasSubstr("this build has no movies"));
+    EXPECT_THAT(movie.error().sentence(), HasSubstr("this build has no movies"));
     EXPECT_THAT(names(), IsEmpty());
 }
 

@@ -80,7 +80,7 @@ void expect_refused(const std::string& path, const Names& parts) {
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().code, ErrorCode::kUnreadable);
     for (const std::string& part : parts)
-        EXPECT_THAT(read.error().message, HasSubstr(part));
+        EXPECT_THAT(read.error().sentence(), HasSubstr(part));
 }
 
 TEST_F(PartChoice, SeveralThatMayBeThePictureAreListed) {

@@ -74,7 +74,7 @@ class PassLayers : public MediaTest {
     std::string refusal(const std::string& name, const MotionSelect& select) {
         const auto flow = read_motion(in(name), select, kPassSize);
         EXPECT_FALSE(flow);
-        return flow ? "" : flow.error().message;
+        return flow ? "" : flow.error().sentence();
     }
 };
 
@@ -93,7 +93,7 @@ TEST_F(PassLayers, APartsNameIsTheLayerOfItsPlainChannels) {
     EXPECT_EQ(read_uv(in("parts.exr"), "UV", kPassSize).value().at(1, 1, 1), 0.5f);
     const auto missing = read_uv(in("parts.exr"), "beauty", kPassSize);
     EXPECT_TRUE(missing) << "any layer with two channels, if it is named";
-    EXPECT_THAT(read_normals(in("parts.exr"), "", kPassSize).error().message,
+    EXPECT_THAT(read_normals(in("parts.exr"), "", kPassSize).error().sentence(),
                 HasSubstr("Vector: X, Y, Z, W"));
 }
 
@@ -103,7 +103,8 @@ TEST_F(PassLayers, UnnamedChannelsCountWhereNoOtherLayerCanBeMeant) {
     // A picture beside other layers is no motion and no texture coordinates.
     put("picture.exr", {{"", {"R", "G", "B", "N.X", "N.Y", "N.Z"}, {3, 1, 0, 0, 0, 1}}});
     refusal("picture.exr", {MotionConvention::kArnold, kForward});
-    EXPECT_THAT(read_uv(in("picture.exr"), "", kPassSize).error().message, HasSubstr("no UV pass"));
+    EXPECT_THAT(read_uv(in("picture.exr"), "", kPassSize).error().sentence(),
+                HasSubstr("no UV pass"));
     put("weft.exr",
         {{"", {"R", "G", "B", "A", "stabilize.R", "stabilize.G"}, {.5f, .25f, 1, 1, 0, 0}}});
     EXPECT_EQ(read_uv(in("weft.exr"), "", kPassSize).value().at(0, 0, 1), 0.25f);
@@ -273,13 +274,44 @@ TEST_F(LightPasses, ThePictureIsNoneOfThem) {
     for (const LightPass pass : {LightPass::kAlbedo, LightPass::kLighting}) {
         const auto none = read_light_pass(in("plain.exr"), pass, "");
         ASSERT_FALSE(none);
-        EXPECT_THAT(none.error().message, HasSubstr("N: X, Y, Z"));
+        EXPECT_THAT(none.error().sentence(), HasSubstr("N: X, Y, Z"));
     }
     EXPECT_EQ(red("plain.exr", LightPass::kAlbedo, "rgba"), 9) << "if it is asked for";
     put("own.exr", {{"", {"R", "G", "B"}, {.5f, 0, 0}}});
     EXPECT_EQ(red("own.exr", LightPass::kAlbedo), 0.5f);
     put_frame(in("own.png"), ImageF3(kPassSize, 1.0f));
     EXPECT_EQ(red("own.png", LightPass::kAlbedo), 1);
+}
+
+// Nuke's Write node.
+TEST_F(PassLayers, ChannelsMayBeWrittenOut) {
+    put("nuke.exr", {{"",
+                      {"R", "G", "B", "N.red", "N.green", "N.blue", "albedo.red", "albedo.green",
+                       "albedo.blue"},
+                      {9, 9, 9, 0, 0.6f, 0.8f, 1, 2, 3}}});
+    EXPECT_EQ(read_normals(in("nuke.exr"), "", kPassSize).value().at(1, 1, 2), 0.8f);
+    EXPECT_EQ(find_light_layer(in("nuke.exr"), LightPass::kAlbedo, {}).value(), "albedo");
+}
+
+TEST_F(PassLayers, TextureCoordinatesThatCountPixelsAreRefused) {
+    OIIO::ImageSpec spec(kPassSize.width, kPassSize.height, 2, OIIO::TypeFloat);
+    spec.channelnames = {"UV.U", "UV.V"};
+    const auto put_map = [&](const char* name, float scale) {
+        std::vector<float> data;
+        for (int y = 0; y < kPassSize.height; ++y)
+            for (int x = 0; x < kPassSize.width; ++x)
+                data.insert(data.end(),
+                            {scale * static_cast<float>(x), scale * static_cast<float>(y)});
+        auto output = OIIO::ImageOutput::create(in(name));
+        ASSERT_TRUE(output->open(in(name), spec));
+        ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+        ASSERT_TRUE(output->close());
+    };
+    put_map("pixels.exr", 1);
+    EXPECT_THAT(read_uv(in("pixels.exr"), "", kPassSize).error().sentence(),
+                HasSubstr("half a texture"));
+    put_map("shares.exr", 0.25f);
+    EXPECT_EQ(read_uv(in("shares.exr"), "", kPassSize).value().at(3, 1, 0), 0.75f);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Opening plates: patterns, folders, single pictures, and what is wrong with them.
 
+#include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 
 #include <thread>
@@ -43,8 +44,8 @@ TEST_F(Plate, AbsentFrameIsMissingAndNamed) {
     const auto plate = opened(in("p.####.png"));
     for (const auto& error : {plate->read(1043).error(), plate->stamp(1043).error()}) {
         EXPECT_EQ(error.code, ErrorCode::kMissingFrames);
-        EXPECT_THAT(error.message, HasSubstr("Frame 1043 is missing in"));
-        EXPECT_THAT(error.message, HasSubstr("p.1043.png"));
+        EXPECT_THAT(error.sentence(), HasSubstr("Frame 1043 is missing in"));
+        EXPECT_THAT(error.sentence(), HasSubstr("p.1043.png"));
     }
     std::filesystem::remove(in("p.1044.png"));
     EXPECT_EQ(plate->read(1044).error().code, ErrorCode::kMissingFrames);
@@ -64,9 +65,9 @@ TEST_F(Plate, OtherSizeIsUnreadableWithBothSizes) {
     const auto frame = opened(in("p.#.png"))->read(2);
     ASSERT_FALSE(frame);
     EXPECT_EQ(frame.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(frame.error().message, HasSubstr("p.2.png"));
-    EXPECT_THAT(frame.error().message, HasSubstr("40x31"));
-    EXPECT_THAT(frame.error().message, HasSubstr("40x30"));
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("p.2.png"));
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("40x31"));
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("40x30"));
 }
 
 TEST_F(Plate, FolderWithOneSequenceIsThatSequence) {
@@ -92,10 +93,40 @@ TEST_F(Plate, FolderWithSeveralSequencesListsThem) {
     const auto plate = open_plate(folder_.string(), {});
     ASSERT_FALSE(plate);
     EXPECT_EQ(plate.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(plate.error().message, HasSubstr("a.##.png"));
-    EXPECT_THAT(plate.error().message, HasSubstr("b.##.png"));
+    EXPECT_THAT(plate.error().sentence(), HasSubstr("a.##.png"));
+    EXPECT_THAT(plate.error().sentence(), HasSubstr("b.##.png"));
     std::filesystem::create_directory(in("empty"));
     EXPECT_EQ(open_plate(in("empty"), {}).error().code, ErrorCode::kMissingFrames);
+}
+
+TEST_F(Plate, TheFrameNumberOfAFolderNeedNotBeTheLast) {
+    for (const char* name : {"sh010_v002_0001_4k.png", "sh010_v002_0002_4k.png"})
+        put_frame(in(name), picture({8, 8}, 0));
+    EXPECT_THAT(opened(folder_.string())->frames(), ElementsAre(1, 2));
+}
+
+// Krita and GIMP save layers as pages; the first is the background.
+TEST_F(Plate, TiffWithPagesOfOneSizeIsRefused) {
+    const auto put_pages = [&](const std::string& path, int other_width) {
+        auto output = OIIO::ImageOutput::create(path);
+        const std::vector<unsigned char> pixels(16 * 8 * 3, 99);
+        for (const int width : {16, other_width}) {
+            const OIIO::ImageSpec spec(width, 8, 3, OIIO::TypeUInt8);
+            ASSERT_TRUE(output->open(path, spec,
+                                     width == 16 && output->spec().width == 0
+                                         ? OIIO::ImageOutput::Create
+                                         : OIIO::ImageOutput::AppendSubimage));
+            ASSERT_TRUE(output->write_image(OIIO::TypeUInt8, pixels.data()));
+        }
+        ASSERT_TRUE(output->close());
+    };
+    put_pages(in("layers.tif"), 16);
+    const auto layers = open_plate(in("layers.tif"), {});
+    ASSERT_FALSE(layers);
+    EXPECT_EQ(layers.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(layers.error().sentence(), HasSubstr("pages or layers"));
+    put_pages(in("preview.tif"), 4);
+    EXPECT_EQ(opened(in("preview.tif"))->size(), (Size{16, 8}));
 }
 
 TEST_F(Plate, SinglePictureIsAPlateOfOneFrame) {

@@ -308,7 +308,7 @@ TEST_F(Png, DamageIsWhatLibpngSaysItIs) {
         const auto frame = read_image(in("a.png"));
         ASSERT_FALSE(frame) << reason;
         EXPECT_EQ(frame.error().code, ErrorCode::kUnreadable);
-        EXPECT_THAT(frame.error().message, HasSubstr(reason));
+        EXPECT_THAT(frame.error().sentence(), HasSubstr(reason));
     }
 }
 

@@ -275,7 +275,7 @@ TEST(WriteFormat, ImpossibleRequestsAreUsage) {
         const Status status = check_format(name, at(depth));
         ASSERT_FALSE(status) << name;
         EXPECT_EQ(status.error().code, ErrorCode::kUsage);
-        EXPECT_THAT(status.error().message, HasSubstr(name));
+        EXPECT_THAT(status.error().sentence(), HasSubstr(name));
     }
     WriteOptions options = at(PixelDepth::kHalf);
     options.exr_compression = "best";

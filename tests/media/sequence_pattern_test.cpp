@@ -57,7 +57,7 @@ TEST(SequencePattern, RefusesTwoNumbersAndNumbersInFolders) {
         const auto p = SequencePattern::parse(text);
         ASSERT_FALSE(p) << text;
         EXPECT_EQ(p.error().code, ErrorCode::kUsage);
-        EXPECT_THAT(p.error().message, HasSubstr("more than one"));
+        EXPECT_THAT(p.error().sentence(), HasSubstr("more than one"));
     }
     EXPECT_EQ(SequencePattern::parse("shot_##/a.png").error().code, ErrorCode::kUsage);
     EXPECT_EQ(SequencePattern::parse("%03d/a.####.png").error().code, ErrorCode::kUsage);
@@ -100,20 +100,20 @@ TEST_F(SequenceFolder, NegativeFramesAreReadAsTheyAreWritten) {
     const auto hashes = pattern(in("p.####.png")).list_frames();
     ASSERT_FALSE(hashes);
     EXPECT_EQ(hashes.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(hashes.error().message, HasSubstr("Write %04d"));
+    EXPECT_THAT(hashes.error().sentence(), HasSubstr("Write %04d"));
 
     put_bytes(in("q.-0002.png"), {'x'}, 1);
     EXPECT_THAT(pattern(in("q.####.png")).list_frames().value(), ElementsAre(-2));
     const auto printf_style = pattern(in("q.%04d.png")).list_frames();
     ASSERT_FALSE(printf_style);
-    EXPECT_THAT(printf_style.error().message, HasSubstr("Write ####"));
+    EXPECT_THAT(printf_style.error().sentence(), HasSubstr("Write ####"));
 }
 
 TEST_F(SequenceFolder, MissingFolderIsUnreadable) {
     const auto frames = pattern(in("none/p.####.png")).list_frames();
     ASSERT_FALSE(frames);
     EXPECT_EQ(frames.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(frames.error().message, HasSubstr("none"));
+    EXPECT_THAT(frames.error().sentence(), HasSubstr("none"));
 }
 
 }  // namespace

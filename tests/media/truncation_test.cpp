@@ -37,8 +37,8 @@ class Truncation : public MediaTest {
         EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << name << " cut to " << count;
         ASSERT_FALSE(frame) << name << " cut to " << count << " of " << bytes.size();
         EXPECT_EQ(frame.error().code, ErrorCode::kUnreadable);
-        EXPECT_THAT(frame.error().message, HasSubstr(name));
-        EXPECT_EQ(frame.error().message.find('\n'), std::string::npos);
+        EXPECT_THAT(frame.error().sentence(), HasSubstr(name));
+        EXPECT_EQ(frame.error().sentence().find('\n'), std::string::npos);
     }
 };
 
@@ -65,7 +65,7 @@ TEST_F(Truncation, ExrAttributeBeyondTheFile) {
     put_bytes(in("claims.exr"), bytes, bytes.size());
     const auto frame = read_image(in("claims.exr"));
     ASSERT_FALSE(frame);
-    EXPECT_THAT(frame.error().message, HasSubstr("bytes for the attribute 'compression'"));
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("bytes for the attribute 'compression'"));
 }
 // OpenImageIO would try all its readers: that of DICOM reads to the end of an endless file, that of
 // FFmpeg follows a list to other files.
@@ -79,7 +79,7 @@ TEST_F(Truncation, WhatIsNoPictureIsNotSearchedForOne) {
         const auto start = std::chrono::steady_clock::now();
         const auto frame = read_image(in(name));
         ASSERT_FALSE(frame) << name;
-        EXPECT_THAT(frame.error().message, HasSubstr("its kind is unknown"));
+        EXPECT_THAT(frame.error().sentence(), HasSubstr("its kind is unknown"));
         EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5)) << name;
     }
 }
@@ -154,7 +154,7 @@ TEST_F(Truncation, AbsurdSizeIsRefusedBeforeMemoryIsTaken) {
     const auto frame = read_image(in("huge.png"));
     ASSERT_FALSE(frame);
     EXPECT_EQ(frame.error().code, ErrorCode::kNoSpace) << frame.error().text();
-    EXPECT_THAT(frame.error().message, HasSubstr("1000000x1000000"));
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("1000000x1000000"));
 }
 
 TEST_F(Truncation, APictureOverTheLimitOfOneIsRefused) {

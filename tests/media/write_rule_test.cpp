@@ -49,8 +49,8 @@ class WriteRuleTest : public MediaTest {
         const Status status = write(name, rule);
         ASSERT_FALSE(status) << name;
         EXPECT_EQ(status.error().code, ErrorCode::kUsage) << status.error().text();
-        EXPECT_THAT(status.error().message, HasSubstr(part));
-        EXPECT_THAT(status.error().message, HasSubstr(in(name)));
+        EXPECT_THAT(status.error().sentence(), HasSubstr(part));
+        EXPECT_THAT(status.error().sentence(), HasSubstr(in(name)));
     }
 };
 

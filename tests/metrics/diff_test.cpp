@@ -66,7 +66,7 @@ TEST(Diff, SizesThatDifferAreAnErrorThatNamesBoth) {
     const auto d = diff_frames(ImageF3(4, 4), ImageF3(5, 4));
     ASSERT_FALSE(d.has_value());
     EXPECT_EQ(d.error().code, ErrorCode::kDiffers);
-    EXPECT_NE(d.error().message.find("4x4 and 5x4"), std::string::npos);
+    EXPECT_NE(d.error().sentence().find("4x4 and 5x4"), std::string::npos);
 }
 
 TEST(Diff, SequenceKeepsTheWorst) {

@@ -220,7 +220,7 @@ TEST(SequenceMeasure, RefusesAMatteOfAnotherSize) {
     const auto r = m.add(f);
     ASSERT_FALSE(r.has_value());
     EXPECT_EQ(r.error().code, ErrorCode::kUnreadable);
-    EXPECT_NE(r.error().message.find("matte of frame 7 is 20x20"), std::string::npos);
+    EXPECT_NE(r.error().sentence().find("matte of frame 7 is 20x20"), std::string::npos);
 }
 
 TEST(SequenceMeasure, SameNumbersForAnyNumberOfThreads) {

@@ -92,7 +92,7 @@ TEST(CornerTrack, SaysWhatIsWrong) {
     const auto message = [](const char* text) {
         const auto track = parse_corner_track(text, kContext);
         EXPECT_FALSE(track) << text;
-        return track ? std::string() : track.error().message;
+        return track ? std::string() : track.error().sentence();
     };
     EXPECT_NE(message("1001 10 20 110 20 110 80 10").find("Line 1 is not a frame"),
               std::string::npos);
@@ -145,7 +145,7 @@ TEST(PointTrack, IsNoTrackOfAPlane) {
     EXPECT_FALSE(parse_corner_track("1 50 40\n", {{200, 100}, 10}));
     const auto wrong = parse_corner_track("1 50\n", {{200, 100}, 10, true});
     ASSERT_FALSE(wrong);
-    EXPECT_NE(wrong.error().message.find("three for a point"), std::string::npos);
+    EXPECT_NE(wrong.error().sentence().find("three for a point"), std::string::npos);
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST(Analysis, TwoReferencesAreBlendedBetweenAndKeptThemselves) {
     EXPECT_EQ(stored_coords(two, 2).nodes(), stored_coords(one, 2).nodes());
     EXPECT_EQ(stored_coords(two, 8).nodes(), stored_coords(one, 8).nodes());
     EXPECT_EQ(stored_coords(two, 1).nodes(), stored_coords(one, 1).nodes());
-    // Between them the history of the second one counts too, without a jump beside it.
+    // Between them the track of the second one counts too, without a jump beside it.
     EXPECT_NE(stored_coords(two, 5).nodes(), stored_coords(one, 5).nodes());
     for (int frame = kFirst; frame <= kLast; ++frame)
         EXPECT_LT(coords_error(two, frame, 2), 0.2f) << frame;

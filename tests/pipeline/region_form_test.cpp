@@ -126,12 +126,12 @@ TEST(RegionForm, APassWithoutFormIsAnError) {
     Status found = analyse_shot(shot, make_plan(formed()), store, {}, {});
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(found.error().message, ::testing::HasSubstr("frame 1:"));
+    EXPECT_THAT(found.error().sentence(), ::testing::HasSubstr("frame 1:"));
     shot.constant = false;
     shot.missing = 7;
     found = analyse_shot(shot, make_plan(formed({1, 4, 7, 10})), store, {}, {});
     ASSERT_FALSE(found) << "never other bytes";
-    EXPECT_THAT(found.error().message, ::testing::HasSubstr("frame 7"));
+    EXPECT_THAT(found.error().sentence(), ::testing::HasSubstr("frame 7"));
     EXPECT_FALSE(store.has({0, kFirst, AnalysisKind::kForm}));
 }
 
@@ -186,7 +186,7 @@ TEST(RegionForm, AnOutlineIsInflated) {
     MemoryAnalysisStore store;
     const Status found = analyse_shot(shot, make_plan(region), store, {}, {});
     ASSERT_FALSE(found);
-    EXPECT_THAT(found.error().message, ::testing::HasSubstr("off the region's outline"));
+    EXPECT_THAT(found.error().sentence(), ::testing::HasSubstr("off the region's outline"));
 }
 
 TEST(RegionForm, ALevelStrokeTurnsIt) {
@@ -207,7 +207,7 @@ TEST(RegionForm, ADrawingOutsideOfTheRegionIsAnError) {
         const Column shot;
         const Status found = analyse_shot(shot, make_plan(drawn(std::move(guide))), store, {}, {});
         EXPECT_FALSE(found);
-        return found ? std::string() : found.error().message;
+        return found ? std::string() : found.error().sentence();
     };
     EXPECT_THAT(refused({FormGuideKind::kBall, {900, 900, 20}}),
                 ::testing::HasSubstr("does not lie on the region"));

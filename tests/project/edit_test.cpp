@@ -183,7 +183,7 @@ TEST(Edits, KeyframesAreRefusedBesideFiles) {
     project = apply_edit(project, AddRegion{region, {}}).value();
     const auto refused = apply_edit(project, SetMatteKeyframe{{1, {}}, 3, "a.png"});
     ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("m/####.png"));
+    EXPECT_THAT(refused.error().sentence(), HasSubstr("m/####.png"));
     project =
         apply_edit(project, SetRegionParameter{{1, {}}, "matte.files", std::string()}).value();
     project = apply_edit(project, SetMatteKeyframe{{1, {}}, 3, "a.png"}).value();

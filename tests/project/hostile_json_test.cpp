@@ -240,7 +240,7 @@ TEST(HostileJson, ThousandsOfMutantsNeitherCrashNorLie) {
             mutated(seed % 3 == 0 ? test::json_with_unknown_keys() : *valid, seed));
         if (!project) {
             ++refused;
-            EXPECT_FALSE(project.error().message.empty());
+            EXPECT_FALSE(project.error().sentence().empty());
             continue;
         }
         ++accepted;

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 const Parameter<Region>& region_parameter(std::string_view key) {
     const auto found = find_parameter(region_parameters(), key);
-    if (!found) throw std::logic_error(found.error().message);
+    if (!found) throw std::logic_error(found.error().sentence());
     return **found;
 }
 
@@ -271,7 +271,7 @@ TEST(Parameters, AutoUnsetsWhatMayBeUnset) {
 TEST(Parameters, AnUnknownNameGetsTheNearest) {
     const auto found = find_parameter(region_parameters(), "--scael");
     ASSERT_FALSE(found);
-    EXPECT_THAT(found.error().message, HasSubstr("placement.scale"));
+    EXPECT_THAT(found.error().sentence(), HasSubstr("placement.scale"));
 }
 
 TEST(MatteText, ConfirmedPartsHaveAMatteAndAnArea) {

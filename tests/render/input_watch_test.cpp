@@ -108,8 +108,8 @@ TEST_F(Watch, ARunNamesTheReplacedInput) {
         const Status status = check_unchanged(result->changed_inputs);
         ASSERT_FALSE(status);
         EXPECT_EQ(status.error().code, ErrorCode::kUnreadable);
-        EXPECT_THAT(status.error().message, HasSubstr(path));
-        EXPECT_THAT(status.error().message, HasSubstr("run.overwrite"));
+        EXPECT_THAT(status.error().sentence(), HasSubstr(path));
+        EXPECT_THAT(status.error().sentence(), HasSubstr("run.overwrite"));
         const auto report = nlohmann::json::parse(report_json(job, *result));
         EXPECT_EQ(report["changed_inputs"], (std::vector<std::string>{path}));
     }

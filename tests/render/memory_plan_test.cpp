@@ -29,7 +29,7 @@ TEST(MemoryPlan, TooLittleForOneFrameSaysHowMuchItTakes) {
     const auto refused = frames_at_once(k4k, kGib, false);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kNoSpace);
-    const std::string message = refused.error().message;
+    const std::string message = refused.error().sentence();
     EXPECT_THAT(message, testing::HasSubstr("3840x2160"));
     const std::size_t at = message.find("at least ") + 9;
     const auto needed = parse_bytes(message.substr(at, message.find('M', at) + 1 - at));
@@ -37,7 +37,7 @@ TEST(MemoryPlan, TooLittleForOneFrameSaysHowMuchItTakes) {
     EXPECT_EQ(*frames_at_once(k4k, *needed, false), 1u);
     const auto layered = frames_at_once(k4k, *needed, true);
     ASSERT_FALSE(layered);
-    EXPECT_THAT(layered.error().message, testing::HasSubstr("without layers"));
+    EXPECT_THAT(layered.error().sentence(), testing::HasSubstr("without layers"));
 }
 
 TEST(MemoryPlan, BytesAreReadWithTheirUnits) {

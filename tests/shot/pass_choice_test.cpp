@@ -100,13 +100,24 @@ TEST_F(PassChoosing, TheViewOfThePlateIsTaken) {
     EXPECT_THAT(choose().warnings, ElementsAre(HasSubstr("first view")));
 }
 
+TEST_F(PassChoosing, APassThatOnlyTheOtherViewHasIsNamed) {
+    put("0001.exr",
+        {"left.R", "left.G", "left.B", "right.R", "right.G", "right.B", "right.Depth.Z"});
+    plate_.path = region_.finish.depth = in("####.exr");
+    region_.finish.focus = 1;
+    EXPECT_THAT(choose().warnings, ElementsAre(HasSubstr("has the view 'right' only")));
+    region_.finish.depth_layer.clear();
+    plate_.layer = "right";
+    EXPECT_THAT(choose().warnings, IsEmpty());
+}
+
 TEST_F(PassChoosing, ThePlateIsNotItsOwnAlbedo) {
     put("0001.exr", {"R", "G", "B"});
     plate_.path = region_.light.albedo = in("####.exr");
     const auto choice = choose_pass_layers(region_, plate_, {1, 2});
     ASSERT_FALSE(choice);
     EXPECT_EQ(choice.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(choice.error().message, HasSubstr("the plate's own picture"));
+    EXPECT_THAT(choice.error().sentence(), HasSubstr("the plate's own picture"));
     region_.light.albedo = in("elsewhere/####.exr");
     EXPECT_TRUE(choose_pass_layers(region_, plate_, {1, 2})) << "missing files are told elsewhere";
 }
@@ -135,7 +146,7 @@ TEST_F(PassChoosing, TheAxesOfNormalsAreThoseThatTheFileTells) {
     region_.form.fov_deg = 48.5;
     const auto refused = read_form_normals(region_, in("0001.exr"), {8, 4});
     ASSERT_FALSE(refused) << "nothing tells the camera's axes";
-    EXPECT_THAT(refused.error().message, HasSubstr("world's axes"));
+    EXPECT_THAT(refused.error().sentence(), HasSubstr("world's axes"));
     put("0001.exr", {"nCamera.X", "nCamera.Y", "nCamera.Z"});
     region_.form.normal_layer.clear();
     EXPECT_THAT(choose().warnings, IsEmpty());

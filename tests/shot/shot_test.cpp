@@ -25,6 +25,7 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 class OpenShot : public ShotTest {
   protected:
@@ -108,10 +109,39 @@ TEST_F(OpenShot, MattesOfASequenceHaveOneChannel) {
     files.files = in("rgba/####.png");
     region.matte = files;
     region.holdouts = std::vector<MatteSource>{files};
-    choose_matte_channels(region, {1, 2});
+    ASSERT_TRUE(choose_matte_channels(region, {1, 2}));
     ASSERT_EQ(matte_sources(region).size(), 2u);
     for (const MatteSource* matte : matte_sources(region))
         EXPECT_EQ(matte->select.channel, "A");
+}
+
+TEST_F(OpenShot, WhatIsNoMatteIsRefusedUnlessItsChannelIsNamed) {
+    ImageF3 colours(Size{4, 4}, 0.0f);
+    colours.at(1, 1, 0) = colours.at(2, 2, 1) = 1;
+    ASSERT_TRUE(write_image(in("rgb.png"), colours, {}, {}));
+    const auto warnings_of = [&](const MatteSource& matte) {
+        Region region;
+        region.holdouts = std::vector<MatteSource>{matte};
+        return choose_matte_channels(region, {1});
+    };
+    MatteSource matte;
+    matte.files = in("rgb.png");
+    const auto refused = warnings_of(matte);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(refused.error().text(), HasSubstr("rgb.png has colours"));
+    matte.select.channel = "R";
+    EXPECT_THAT(warnings_of(matte).value(), IsEmpty());
+    MatteSource painted;
+    painted.keyframes[1].path = in("rgb.png");
+    EXPECT_FALSE(warnings_of(painted));
+    ASSERT_TRUE(write_image(in("levels.png"), ImageF3(Size{4, 4}, 0.1f), {}, {}));
+    MatteSource faint;
+    faint.files = in("levels.png");
+    EXPECT_FALSE(warnings_of(faint)) << "below an eighth";
+    ASSERT_TRUE(write_image(in("grey.png"), ImageF3(Size{4, 4}, 0.4f), {}, {}));
+    faint.files = in("grey.png");
+    EXPECT_THAT(warnings_of(faint).value(), ElementsAre(HasSubstr("by more than 40 %")));
 }
 
 // A renderer's file begins with the picture; its depth is in a channel of its own.

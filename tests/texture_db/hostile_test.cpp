@@ -98,7 +98,7 @@ TEST(Zip, BombsAndWrongChecksumsAreRefused) {
     ASSERT_EQ(zip->entries().size(), 1u);
     const auto data = zip->read(zip->entries()[0]);
     ASSERT_FALSE(data);
-    EXPECT_THAT(data.error().message, HasSubstr("checksum"));
+    EXPECT_THAT(data.error().sentence(), HasSubstr("checksum"));
 }
 
 TEST(Zip, MoreThan65535EntriesAreAllRead) {
@@ -213,7 +213,7 @@ TEST(Pictures, HugeOnesAreRefusedByTheirHeader) {
                                            number(0, 1));
     const auto huge = read_picture_file(scratch.at("huge.tga"));
     ASSERT_FALSE(huge);
-    EXPECT_THAT(huge.error().message, HasSubstr("30000x30000"));
+    EXPECT_THAT(huge.error().sentence(), HasSubstr("30000x30000"));
 }
 
 TEST(Pictures, ThatLieOrAreCutAreErrors) {
@@ -245,7 +245,7 @@ TEST(Packages, NamesAreNotTrusted) {
 TEST(Packages, AProgramThatFailsOrIsMissingIsAnError) {
     const auto missing = run_program({"weft-no-such-program"}, {}, {});
     ASSERT_FALSE(missing);
-    EXPECT_THAT(missing.error().message, HasSubstr("not installed"));
+    EXPECT_THAT(missing.error().sentence(), HasSubstr("not installed"));
     EXPECT_FALSE(run_program({"false"}, {}, {}));
     EXPECT_EQ(*run_program({"echo", "a b"}, {}, {}), "a b\n");
     const CancelToken cancel;

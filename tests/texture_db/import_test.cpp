@@ -97,7 +97,7 @@ TEST(Import, AMissingPathIsAnError) {
     const auto library = open_or_die(scratch.at("a.db"));
     const auto report = import_pictures(*library, {scratch.at("nothing")}, {});
     ASSERT_FALSE(report);
-    EXPECT_THAT(report.error().message, testing::HasSubstr("nothing"));
+    EXPECT_THAT(report.error().sentence(), testing::HasSubstr("nothing"));
 }
 
 TEST(Import, KeepsOriginalsWhenAsked) {

@@ -128,19 +128,19 @@ TEST(Library, RefusesForeignNewerAndDamagedFiles) {
     run_sql(scratch.at("foreign.db"), "CREATE TABLE t(x)");
     const auto foreign = TextureLibrary::open(scratch.at("foreign.db"));
     ASSERT_FALSE(foreign);
-    EXPECT_THAT(foreign.error().message, HasSubstr("not a texture library"));
+    EXPECT_THAT(foreign.error().sentence(), HasSubstr("not a texture library"));
 
     { ASSERT_TRUE(open_or_die(scratch.at("newer.db"))); }
     run_sql(scratch.at("newer.db"), "PRAGMA user_version = 99");
     const auto newer = TextureLibrary::open(scratch.at("newer.db"));
     ASSERT_FALSE(newer);
-    EXPECT_THAT(newer.error().message, HasSubstr("newer version"));
+    EXPECT_THAT(newer.error().sentence(), HasSubstr("newer version"));
 
     std::ofstream(scratch.at("text.db")) << std::string(5000, 'x');
     const auto text = TextureLibrary::open(scratch.at("text.db"));
     ASSERT_FALSE(text);
     EXPECT_EQ(text.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(text.error().message, HasSubstr("damaged"));
+    EXPECT_THAT(text.error().sentence(), HasSubstr("damaged"));
 
     LibraryOptions no_create;
     no_create.create = false;

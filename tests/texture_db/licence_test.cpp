@@ -37,10 +37,10 @@ TEST(Policy, RefusesWithTheExitCodeAndNamesTheTextures) {
     const Status refused = check_licences(used, {"GPL"});
     ASSERT_FALSE(refused);
     EXPECT_EQ(exit_code(refused.error().code), 7);
-    EXPECT_THAT(refused.error().message,
+    EXPECT_THAT(refused.error().sentence(),
                 testing::AllOf(testing::HasSubstr("bricks"), testing::HasSubstr("wall"),
                                testing::HasSubstr("Jane")));
-    EXPECT_THAT(refused.error().message, testing::Not(testing::HasSubstr("oak")));
+    EXPECT_THAT(refused.error().sentence(), testing::Not(testing::HasSubstr("oak")));
 }
 
 TEST(Policy, RefusesNamesThatNobodyKnows) {
@@ -52,7 +52,7 @@ TEST(Policy, RefusesNamesThatNobodyKnows) {
     const Status slip = check_licences(used, {"GPL", "GLP"});
     ASSERT_FALSE(slip);
     EXPECT_EQ(slip.error().code, ErrorCode::kUsage);
-    EXPECT_THAT(slip.error().message,
+    EXPECT_THAT(slip.error().sentence(),
                 testing::AllOf(testing::HasSubstr("'GLP'"), testing::HasSubstr("CC-BY-SA"),
                                testing::HasSubstr("non-commercial")));
     // A studio's own licence is known where a texture has it.

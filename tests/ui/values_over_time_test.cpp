@@ -95,11 +95,11 @@ TEST(Provenance, TheSeamDecidesBetweenTwoTracks) {
     from.frame = 5;
     from.two = TwoTracks{1, 9, 0.25f, {}};
     auto found = from.at({1.5f, 1.5f});
-    ASSERT_THAT(found.histories, SizeIs(2));
-    EXPECT_EQ(found.histories[0].frame, 1);
-    EXPECT_FLOAT_EQ(found.histories[0].weight, 0.75f);
-    EXPECT_EQ(found.histories[1].frame, 9);
-    EXPECT_FLOAT_EQ(found.histories[1].weight, 0.25f);
+    ASSERT_THAT(found.tracks, SizeIs(2));
+    EXPECT_EQ(found.tracks[0].frame, 1);
+    EXPECT_FLOAT_EQ(found.tracks[0].weight, 0.75f);
+    EXPECT_EQ(found.tracks[1].frame, 9);
+    EXPECT_FLOAT_EQ(found.tracks[1].weight, 0.25f);
     // With a seam, each side shows its own track.
     TwoTracks::Seam seam;
     seam.before = LatticeField({32, 32}, 8);
@@ -114,12 +114,12 @@ TEST(Provenance, TheSeamDecidesBetweenTwoTracks) {
     seam.labels = {4, 6, 4, {0, 0}, {after}};
     from.two->seam = std::move(seam);
     found = from.at({2.5f, 16.5f});
-    ASSERT_THAT(found.histories, SizeIs(1));
-    EXPECT_EQ(found.histories[0].frame, 1);
+    ASSERT_THAT(found.tracks, SizeIs(1));
+    EXPECT_EQ(found.tracks[0].frame, 1);
     EXPECT_EQ(found.in_sample->x, 2);
     found = from.at({26.5f, 16.5f});
-    ASSERT_THAT(found.histories, SizeIs(1));
-    EXPECT_EQ(found.histories[0].frame, 9);
+    ASSERT_THAT(found.tracks, SizeIs(1));
+    EXPECT_EQ(found.tracks[0].frame, 9);
     EXPECT_EQ(found.in_sample->x, 106);
 }
 
@@ -131,13 +131,13 @@ TEST(Provenance, ThePaperModeTracksWhatIsNotFresh) {
     from.frame = 5;
     from.track_frame = 9;
     auto found = from.at({1.5f, 1.5f});
-    ASSERT_THAT(found.histories, SizeIs(1));
-    EXPECT_EQ(found.histories[0].frame, 6);
-    EXPECT_FLOAT_EQ(found.histories[0].weight, 0.75f);
+    ASSERT_THAT(found.tracks, SizeIs(1));
+    EXPECT_EQ(found.tracks[0].frame, 6);
+    EXPECT_FLOAT_EQ(found.tracks[0].weight, 0.75f);
     EXPECT_FLOAT_EQ(found.made_anew, 0.25f);
     from.frame = 9;
     found = from.at({1.5f, 1.5f});
-    EXPECT_THAT(found.histories, SizeIs(0));
+    EXPECT_THAT(found.tracks, SizeIs(0));
     EXPECT_FLOAT_EQ(found.made_anew, 1);
 }
 

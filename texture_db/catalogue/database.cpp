@@ -33,10 +33,8 @@ Error in_words(const std::string& path, int code, const std::string& detail) {
     if (is_full(code)) {
         return {ErrorCode::kNoSpace,
                 "The texture library " + path +
-                    " cannot be written: the disk is full, or a limit is reached. Free some space "
-                    "and go "
-                    "on; what was stored "
-                    "before is kept.",
+                    " cannot be written: the disk is full, or a limit is reached.",
+                "Free some space and go on; what was stored before is kept.",
                 {}};
     }
     switch (code & 0xff) {
@@ -44,28 +42,31 @@ Error in_words(const std::string& path, int code, const std::string& detail) {
         case SQLITE_NOTADB:
             return {ErrorCode::kUnreadable,
                     "The texture library " + path + " is damaged or not a texture library (" +
-                        detail + "). Restore a copy, or move it away and build it again.",
+                        detail + ").",
+                    "Restore a copy, or move it away and build it again.",
                     {}};
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
             return {ErrorCode::kUnreadable,
-                    "The texture library " + path +
-                        " is being written by another program. Wait for it to finish and try "
-                        "again.",
+                    "The texture library " + path + " is being written by another program.",
+                    "Wait for it to finish and try again.",
                     {}};
         case SQLITE_CANTOPEN:
         case SQLITE_PERM:
         case SQLITE_READONLY:
-            return {ErrorCode::kUnreadable,
-                    "The texture library " + path + " cannot be opened for writing (" + detail +
-                        "). Check the folder and its permissions.",
-                    {}};
+            return {
+                ErrorCode::kUnreadable,
+                "The texture library " + path + " cannot be opened for writing (" + detail + ").",
+                "Check the folder and its permissions.",
+                {}};
         case SQLITE_NOMEM:
         case SQLITE_TOOBIG:
-            return {ErrorCode::kNoSpace, "Out of memory in the texture library " + path + ".", {}};
+            return {
+                ErrorCode::kNoSpace, "Out of memory in the texture library " + path + ".", {}, {}};
         default:
             return {ErrorCode::kUnreadable,
                     "The texture library " + path + " cannot be used: " + detail + ".",
+                    {},
                     {}};
     }
 }
@@ -151,17 +152,16 @@ Expected<std::unique_ptr<Database>> Database::open(const std::string& path, bool
     std::error_code ignored;
     const bool there = fs::exists(path, ignored);
     if (!there && (read_only || !create)) {
-        return fail(ErrorCode::kUnreadable,
-                    "Texture library " + path + " not found. Build one, or choose another" +
+        return fail(ErrorCode::kUnreadable, "Texture library " + path + " not found.",
+                    "Build one, or choose another" +
                         by({{setting::kBuildLibrary}, {setting::kLibrary}}) + ".");
     }
     if (there) {
         WEFT_CHECK_OK(check_input_file(path, "The texture library"));
         // SQLite would take it for a new library, and write to it.
         if (!create && fs::file_size(path, ignored) == 0)
-            return fail(ErrorCode::kUnreadable, "The texture library " + path +
-                                                    " is empty. Choose another" +
-                                                    by({{setting::kLibrary}}) + ", or remove it.");
+            return fail(ErrorCode::kUnreadable, "The texture library " + path + " is empty.",
+                        "Choose another" + by({{setting::kLibrary}}) + ", or remove it.");
     }
     if (!there && fs::path(path).has_parent_path()) {
         std::error_code error;

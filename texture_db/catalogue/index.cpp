@@ -95,9 +95,10 @@ Expected<SampleIndex> load_index(Database& database) {
         s.synthesis = static_cast<float>(rows.real(9));
         s.added = rows.integer(10);
         if (!read_measured(rows.blob(11), s.measured)) {
-            return fail(ErrorCode::kUnreadable,
-                        "The texture library " + database.path() + " is damaged at sample " + s.id +
-                            ". Check the library" + by({{setting::kVerifyLibrary}}) + ".");
+            return fail(
+                ErrorCode::kUnreadable,
+                "The texture library " + database.path() + " is damaged at sample " + s.id + ".",
+                "Check the library" + by({{setting::kVerifyLibrary}}) + ".");
         }
         index.add(std::move(s), floats_of(rows.blob(12)));
     }

@@ -105,11 +105,13 @@ Status check_licence_names(const std::vector<std::string>& excluded,
                            const std::vector<std::string>& own) {
     for (const std::string& name : excluded) {
         if (is_known(name, own)) continue;
-        return fail(ErrorCode::kUsage, setting_name({setting::kExcludedLicences}) + ": licence '" +
-                                           name + "' is unknown. Use one of " + listed(kLicences) +
-                                           ", each with any version, "
-                                           "or one of the families " +
-                                           listed(kFamilies) + ".");
+        return fail(
+            ErrorCode::kUsage,
+            setting_name({setting::kExcludedLicences}) + ": licence '" + name + "' is unknown.",
+            "Use one of " + listed(kLicences) +
+                ", each with any version, "
+                "or one of the families " +
+                listed(kFamilies) + ".");
     }
     return {};
 }
@@ -134,8 +136,8 @@ Status check_licences(const std::vector<TextureCredit>& textures,
     for (const std::string& name : excluded)
         names += (names.empty() ? "" : ", ") + name;
     return fail(ErrorCode::kRefused,
-                "The project excludes textures under " + names + ": " + refused +
-                    ". Choose other textures, or change the project's licence policy.");
+                "The project excludes textures under " + names + ": " + refused + ".",
+                "Choose other textures, or change the project's licence policy.");
 }
 
 }  // namespace weft

@@ -45,7 +45,7 @@ Expected<SearchQuery> query_from_json(const std::string& text) {
         q.descending = json.value("descending", q.descending);
         return q;
     } catch (const nlohmann::json::exception&) {
-        return fail(ErrorCode::kUnreadable, "It is damaged. Delete it and save it again.");
+        return fail(ErrorCode::kUnreadable, "It is damaged.", "Delete it and save it again.");
     }
 }
 

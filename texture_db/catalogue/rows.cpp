@@ -38,8 +38,8 @@ Expected<std::string> full_id(Database& database, const std::string& given) {
         return fail(ErrorCode::kUsage,
                     "'" + given +
                         "' is not a texture id. An id has 32 hexadecimal digits; a prefix of 6 or "
-                        "more is enough. Choose one from the list" +
-                        by({{setting::kListTextures}}) + ".");
+                        "more is enough.",
+                    "Choose one from the list" + by({{setting::kListTextures}}) + ".");
     }
     std::string above = id;
     above.back() = static_cast<char>(above.back() + 1);
@@ -47,16 +47,15 @@ Expected<std::string> full_id(Database& database, const std::string& given) {
     query.bind(id).bind(above);
     WEFT_TRY(found, query.step());
     if (!found) {
-        return fail(ErrorCode::kUnreadable, "Texture " + id + " was not found in the library " +
-                                                database.path() +
-                                                ". Search for another, or choose its library" +
-                                                by({{setting::kLibrary}}) + ".");
+        return fail(ErrorCode::kUnreadable,
+                    "Texture " + id + " was not found in the library " + database.path() + ".",
+                    "Search for another, or choose its library" + by({{setting::kLibrary}}) + ".");
     }
     std::string full = query.text(0);
     WEFT_TRY(another, query.step());
     if (another) {
-        return fail(ErrorCode::kUsage,
-                    "More than one texture begins with " + id + ". Give more of its digits.");
+        return fail(ErrorCode::kUsage, "More than one texture begins with " + id + ".",
+                    "Give more of its digits.");
     }
     return full;
 }

@@ -85,23 +85,22 @@ Status bring_up_to_date(Database& database, bool read_only) {
     WEFT_TRY(tables, database.number("SELECT count(*) FROM sqlite_master"));
     if (application != kLibraryApplicationId && (tables > 0 || version > 0)) {
         return fail(ErrorCode::kUnreadable,
-                    database.path() +
-                        " is a database, but not a texture library. Choose another file" +
-                        by({{setting::kLibrary}}) + ".");
+                    database.path() + " is a database, but not a texture library.",
+                    "Choose another file" + by({{setting::kLibrary}}) + ".");
     }
     if (version > kLibrarySchema) {
-        return fail(ErrorCode::kUnreadable, "The texture library " + database.path() +
-                                                " was written by a newer version of weft (schema " +
-                                                std::to_string(version) + ", this one knows " +
-                                                std::to_string(kLibrarySchema) +
-                                                "). Install that version, or use another library.");
+        return fail(ErrorCode::kUnreadable,
+                    "The texture library " + database.path() +
+                        " was written by a newer version of weft (schema " +
+                        std::to_string(version) + ", this one knows " +
+                        std::to_string(kLibrarySchema) + ").",
+                    "Install that version, or use another library.");
     }
     if (read_only) {
         if (version == kLibrarySchema) return {};
-        return fail(
-            ErrorCode::kUnreadable,
-            "The texture library " + database.path() +
-                " is of an older version. Open it once for writing to bring it up to date.");
+        return fail(ErrorCode::kUnreadable,
+                    "The texture library " + database.path() + " is of an older version.",
+                    "Open it once for writing to bring it up to date.");
     }
     // WAL: readers continue while another process writes.
     WEFT_CHECK_OK(database.execute(

@@ -248,8 +248,8 @@ Expected<DescriptorModel> DescriptorModel::from_bytes(std::span<const std::byte>
     const auto d = m.mean.size(), o = static_cast<std::size_t>(std::max(m.outputs, 0));
     if (!read || static_cast<std::size_t>(m.inputs) != d || m.deviation.size() != d ||
         m.projection.size() != d * o || m.centres.size() != m.materials.size() * o) {
-        return fail(ErrorCode::kUnreadable, "The descriptor is damaged. Train it again" +
-                                                by({{setting::kTrainLibrary}}) + ".");
+        return fail(ErrorCode::kUnreadable, "The descriptor is damaged.",
+                    "Train it again" + by({{setting::kTrainLibrary}}) + ".");
     }
     return m;
 }
@@ -259,17 +259,16 @@ Expected<DescriptorModel> learn_descriptor(const LabelledFeatures& data) {
     for (const int label : data.labels)
         ++counts[static_cast<std::size_t>(label)];
     if (std::count_if(counts.begin(), counts.end(), [](int n) { return n >= 10; }) < 2) {
-        return fail(ErrorCode::kUsage,
-                    "Training needs at least two materials of ten samples each. Import more "
-                    "textures first.");
+        return fail(ErrorCode::kUsage, "Training needs at least two materials of ten samples each.",
+                    "Import more textures first.");
     }
     const std::size_t d = data.features.front().size();
     const Standardised s = standardise(data);
     const Classes classes = centres_of(data, s, d);
     std::vector<double> l = within(data, s, classes, d);
     if (!cholesky(l, d))
-        return fail(ErrorCode::kRenderFailed,
-                    "The samples are too similar to train on. Import more varied textures.");
+        return fail(ErrorCode::kRenderFailed, "The samples are too similar to train on.",
+                    "Import more varied textures.");
 
     // Between-class directions, whitened: B = L⁻¹ (c_m − c), at most as many as materials; their
     // singular vectors from the small matrix BᵀB.

@@ -32,10 +32,9 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{2} << 30;
 
 tl::unexpected<Error> unusable(const std::string& folder, const std::string& why) {
-    return fail(ErrorCode::kUnreadable, "The image–text model " + folder +
-                                            " cannot be used: " + why +
-                                            ". See docs/TEXTURES.md for what its folder "
-                                            "holds.");
+    return fail(ErrorCode::kUnreadable,
+                "The image–text model " + folder + " cannot be used: " + why + ".",
+                "See docs/TEXTURES.md for what its folder holds.");
 }
 
 Expected<std::string> contents(const std::string& folder, const std::string& file) {
@@ -43,7 +42,7 @@ Expected<std::string> contents(const std::string& folder, const std::string& fil
     std::error_code fault;
     if (!fs::exists(path, fault)) return unusable(folder, file + " is missing");
     auto text = read_file(path, "The model's file", kMostBytes);
-    if (!text) return unusable(folder, text.error().message);
+    if (!text) return unusable(folder, text.error().sentence());
     return text;
 }
 
@@ -136,7 +135,7 @@ Expected<ImageTextModel> ImageTextModel::open(const std::string& folder) {
     // The length of its vectors is known only after a picture was encoded.
     const ImageU8x3 grey(32, 32, 128);
     auto seen = model.encode_image(grey);
-    if (!seen) return unusable(folder, seen.error().message);
+    if (!seen) return unusable(folder, seen.error().sentence());
     model.parts_->dimensions = static_cast<int>(seen->size());
     for (const auto& [word, vector] : model.parts_->words) {
         if (vector.size() == seen->size()) continue;

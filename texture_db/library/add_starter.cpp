@@ -79,7 +79,7 @@ Status add_starter_textures(TextureLibrary& library, const CancelToken& cancel,
     while (done < items.size()) {
         if (cancel.cancelled()) {
             return fail(static_cast<ErrorCode>(cancel.reason()),
-                        "Making the starter textures was stopped; the next run continues.");
+                        "Making the starter textures was stopped", "the next run continues.");
         }
         const std::size_t end = std::min(items.size(), done + kBatch);
         std::vector<NewTexture> batch(end - done);

@@ -79,9 +79,9 @@ Expected<ImageU8x3> TextureLibrary::thumbnail(const std::string& given) {
     }
     auto image = decode_picture(png);  // outside of the lock: several threads may decode
     if (!image) {
-        return fail(ErrorCode::kUnreadable, "The pixels of texture " + given + " in " +
-                                                state_->path + " are damaged. Check the library" +
-                                                by({{setting::kVerifyLibrary}}) + ".");
+        return fail(ErrorCode::kUnreadable,
+                    "The pixels of texture " + given + " in " + state_->path + " are damaged.",
+                    "Check the library" + by({{setting::kVerifyLibrary}}) + ".");
     }
     return image;
 }
@@ -206,8 +206,8 @@ Expected<std::vector<SearchHit>> TextureLibrary::similar(const std::string& give
 
 Expected<std::vector<SearchHit>> TextureLibrary::similar(ViewU8x3 picture, int count) {
     if (picture.width() < 32 || picture.height() < 32) {
-        return fail(ErrorCode::kUsage,
-                    "The picture is smaller than 32x32 pixels. Give a larger one.");
+        return fail(ErrorCode::kUsage, "The picture is smaller than 32x32 pixels.",
+                    "Give a larger one.");
     }
     const std::vector<float> features = texture_features(middle_sample(picture));
     const std::scoped_lock lock(state_->mutex);
@@ -220,8 +220,8 @@ Expected<Recommendation> TextureLibrary::recommend(const RecommendRequest& given
     const std::scoped_lock lock(state_->mutex);
     WEFT_CHECK_OK(state_->refresh());
     if (state_->index->samples.empty()) {
-        return fail(ErrorCode::kUsage,
-                    "The texture library " + state_->path + " is empty. Build it or import images" +
+        return fail(ErrorCode::kUsage, "The texture library " + state_->path + " is empty.",
+                    "Build it or import images" +
                         by({{setting::kBuildLibrary}, {setting::kImportTextures}}) + ".");
     }
     RecommendRequest request = given;

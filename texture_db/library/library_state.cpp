@@ -41,7 +41,7 @@ Status TextureLibrary::State::read_embeddings() {
     if (!embedding_model) {
         auto opened = ImageTextModel::open(folder);
         if (!opened) {
-            embedding_fault = opened.error().message;
+            embedding_fault = opened.error().sentence();
             return {};
         }
         embedding_model = std::move(*opened);

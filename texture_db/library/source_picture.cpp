@@ -17,20 +17,21 @@ Expected<ImageU8x3> read_picture_file(const std::string& path, long long max_pix
     const long long pixels =
         static_cast<long long>(about.size.width) * static_cast<long long>(about.size.height);
     if (about.size.empty() || pixels > max_pixels) {
-        return fail(ErrorCode::kUnreadable, path + " is " + size_text(about.size) +
-                                                " pixels, more than a texture library takes (" +
-                                                std::to_string(max_pixels / 1'000'000) +
-                                                " megapixels). Scale it down and import it again.");
+        return fail(ErrorCode::kUnreadable,
+                    path + " is " + size_text(about.size) +
+                        " pixels, more than a texture library takes (" +
+                        std::to_string(max_pixels / 1'000'000) + " megapixels).",
+                    "Scale it down and import it again.");
     }
     // A header may claim more than the file can hold: no format packs a pixel into less than about
     // a thousandth of a byte.
     std::error_code ignored;
     const auto bytes = static_cast<long long>(std::filesystem::file_size(path, ignored));
     if (!ignored && pixels > 4'000'000 && bytes < pixels / 1000) {
-        return fail(ErrorCode::kUnreadable, path + " claims to have " +
-                                                std::to_string(pixels / 1'000'000) +
-                                                " megapixels but holds " + std::to_string(bytes) +
-                                                " bytes: it is damaged. Copy or export it again.");
+        return fail(ErrorCode::kUnreadable,
+                    path + " claims to have " + std::to_string(pixels / 1'000'000) +
+                        " megapixels but holds " + std::to_string(bytes) + " bytes: it is damaged.",
+                    "Copy or export it again.");
     }
     WEFT_TRY(raster, read_raster(path, {}));
     ImageU8x3 out(raster.info.size);

@@ -229,15 +229,15 @@ float ColourHarmony::with(float chroma, float hue_deg) const {
 Expected<RegionLook> look_at_region(ViewU8x3 plate, const RegionRequest& region,
                                     const DescriptorModel* model) {
     if (region.matte.size() != plate.size()) {
-        return fail(ErrorCode::kUsage, "The matte of region '" + region.name +
-                                           "' and the plate have different sizes. Both must be of "
-                                           "one frame.");
+        return fail(ErrorCode::kUsage,
+                    "The matte of region '" + region.name + "' and the plate have different sizes.",
+                    "Both must be of one frame.");
     }
     const Shape shape = shape_of(region.matte);
     if (shape.area < 16) {
         return fail(ErrorCode::kUsage,
-                    "The matte of region '" + region.name +
-                        "' is empty on this frame. Choose a frame that shows it.");
+                    "The matte of region '" + region.name + "' is empty on this frame.",
+                    "Choose a frame that shows it.");
     }
     RegionLook look;
     look.place = place_of_region(region.matte);

@@ -110,7 +110,7 @@ Status encode_samples(Database& database, const std::string& folder, ImageTextMo
     while (done < total) {
         if (cancel.cancelled())
             return fail(static_cast<ErrorCode>(cancel.reason()),
-                        "Encoding the library was stopped. Run the command again to continue.");
+                        "Encoding the library was stopped.", "Run the command again to continue.");
         WEFT_TRY(seen, encode_batch(database, *model, unseen, after));
         if (seen == 0) break;
         done += seen;

@@ -33,7 +33,8 @@ std::string work_folder_of(const BuildOptions& options) {
 
 Error stopped(const CancelToken& cancel) {
     return {static_cast<ErrorCode>(cancel.reason()),
-            "The build was stopped; run it again to continue.",
+            "The build was stopped",
+            "run it again to continue.",
             {}};
 }
 
@@ -88,8 +89,8 @@ class Builder {
         return fail(ErrorCode::kNoSpace,
                     "Building needs about " + std::to_string(estimate.disk_bytes >> 20) +
                         " MB, but " + work_ + " has " + std::to_string(estimate.free_bytes >> 20) +
-                        " MB free. Free some space, or build fewer packages" +
-                        by({{setting::kPackages}}) + ".");
+                        " MB free.",
+                    "Free some space, or build fewer packages" + by({{setting::kPackages}}) + ".");
     }
 
     // Thumbnails of what earlier runs stored, so that duplicates of it are detected.

@@ -122,8 +122,8 @@ Expected<ImportReport> import_pictures(TextureLibrary& library,
     const ChoiceRules rules{options.most_per_picture, options.strict};
     for (std::size_t at = 0; at < todo.size(); at += kImportBatch) {
         if (cancel.cancelled()) {
-            return fail(static_cast<ErrorCode>(cancel.reason()),
-                        "The import was stopped; run it again to continue.");
+            return fail(static_cast<ErrorCode>(cancel.reason()), "The import was stopped",
+                        "run it again to continue.");
         }
         const std::size_t n = std::min(kImportBatch, todo.size() - at);
         std::vector<PhotoSamples> done(n);

@@ -101,8 +101,8 @@ Status take_archive(const std::string& archive, const std::string& extracted,
     collector.out.refused_paths += static_cast<int>(zip.refused().size());
     for (const ZipEntry& entry : zip.entries()) {
         if (cancel.cancelled())
-            return fail(static_cast<ErrorCode>(cancel.reason()),
-                        "Unpacking was stopped; run it again to continue.");
+            return fail(static_cast<ErrorCode>(cancel.reason()), "Unpacking was stopped",
+                        "run it again to continue.");
         const std::string material = collector.wanted(entry.path);
         if (material.empty()) continue;
         const fs::path file = fs::path(extracted) / fs::path(archive).stem() / entry.path;
@@ -165,8 +165,8 @@ Expected<PackagePictures> find_package_pictures(const std::string& package,
     }
     if (error || files.empty()) {
         return fail(ErrorCode::kUnreadable,
-                    "The unpacked package in " + unpacked +
-                        " cannot be read. Remove that folder and build again.");
+                    "The unpacked package in " + unpacked + " cannot be read.",
+                    "Remove that folder and build again.");
     }
     std::sort(files.begin(), files.end());
     for (const std::string& file : files) {

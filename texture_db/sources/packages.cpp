@@ -69,9 +69,8 @@ Expected<std::string> run_program(const std::vector<std::string>& arguments,
         if (child.error().code == ErrorCode::kNoSpace) return tl::unexpected(child.error());
         return fail(ErrorCode::kUnreadable,
                     "The program " + arguments[0] +
-                        " is not installed. Building from packages needs a Debian system. Import "
-                        "images instead" +
-                        by({{setting::kImportTextures}}) + ".");
+                        " is not installed. Building from packages needs a Debian system.",
+                    "Import images instead" + by({{setting::kImportTextures}}) + ".");
     }
     std::string out;
     bool killed = false;
@@ -104,10 +103,9 @@ Expected<PackageInfo> find_package_info(const std::string& name) {
         return fail(ErrorCode::kUsage, "'" + name + "' is not the name of a Debian package.");
     auto shown = run_program({"apt-cache", "show", "--no-all-versions", name}, {}, {});
     if (!shown || field_of(*shown, "Version").empty()) {
-        return fail(ErrorCode::kUnreadable, "apt has no package " + name +
-                                                ". Run 'apt-get update', or leave it out" +
-                                                by({{setting::kPackages}}) + "." +
-                                                (shown ? "" : " (" + shown.error().message + ")"));
+        return fail(ErrorCode::kUnreadable, "apt has no package " + name + ".",
+                    "Run 'apt-get update', or leave it out" + by({{setting::kPackages}}) + "." +
+                        (shown ? "" : " (" + shown.error().sentence() + ")"));
     }
     PackageInfo info;
     info.name = name;
@@ -134,17 +132,17 @@ Expected<std::string> download_package(const PackageInfo& package, const std::st
     if (!got) {
         Error error = got.error();
         if (error.code == ErrorCode::kUnreadable) {
-            error.message = "The package " + package.name + " cannot be downloaded (" +
-                            error.message +
-                            "). Check the connection and run the build again: it goes on where it "
-                            "stopped.";
+            error.message =
+                "The package " + package.name + " cannot be downloaded (" + error.sentence() + ").";
+            error.remedy =
+                "Check the connection and run the build again: it goes on where it stopped.";
         }
         return tl::unexpected(error);
     }
     std::string deb = there();
     if (deb.empty()) {
-        return fail(ErrorCode::kUnreadable,
-                    "The download of " + package.name + " is not complete. Run the build again.");
+        return fail(ErrorCode::kUnreadable, "The download of " + package.name + " is not complete.",
+                    "Run the build again.");
     }
     return deb;
 }

@@ -69,7 +69,7 @@ Expected<std::vector<std::string>> pictures_below(const std::string& path) {
     std::error_code error;
     if (fs::is_regular_file(path, error)) return std::vector<std::string>{path};
     if (!fs::is_directory(path, error)) {
-        return fail(ErrorCode::kUnreadable, path + " not found. Check the path.");
+        return fail(ErrorCode::kUnreadable, path + " not found.", "Check the path.");
     }
     std::vector<std::string> out;
     fs::recursive_directory_iterator entries(path, fs::directory_options::skip_permission_denied,

@@ -31,12 +31,13 @@ struct CloseEntry {
 };
 
 Error damaged_archive(const std::string& path, const std::string& why) {
-    return {ErrorCode::kUnreadable, path + " cannot be read as a zip archive: " + why + ".", {}};
+    return {
+        ErrorCode::kUnreadable, path + " cannot be read as a zip archive: " + why + ".", {}, {}};
 }
 
 Error open_error(const std::string& path, zip_error_t* error) {
     if (zip_error_code_zip(error) == ZIP_ER_MEMORY)
-        return {ErrorCode::kNoSpace, "Out of memory while opening " + path + ".", {}};
+        return {ErrorCode::kNoSpace, "Out of memory while opening " + path + ".", {}, {}};
     return damaged_archive(path, zip_error_strerror(error));
 }
 
@@ -75,12 +76,14 @@ Error read_error(const std::string& what, const zip_error_t* error) {
     switch (zip_error_code_zip(error)) {
         case ZIP_ER_CRC:
             return {ErrorCode::kUnreadable,
-                    what + " has a wrong checksum. Download the archive again.",
+                    what + " has a wrong checksum.",
+                    "Download the archive again.",
                     {}};
         case ZIP_ER_MEMORY:
-            return {ErrorCode::kNoSpace, "Out of memory while unpacking " + what + ".", {}};
+            return {ErrorCode::kNoSpace, "Out of memory while unpacking " + what + ".", {}, {}};
         default:
-            return {ErrorCode::kUnreadable, what + " is damaged. Download the archive again.", {}};
+            return {
+                ErrorCode::kUnreadable, what + " is damaged.", "Download the archive again.", {}};
     }
 }
 
@@ -234,7 +237,7 @@ Expected<std::string> ZipReader::read(const ZipEntry& entry) {
     const zip_int64_t beyond = zip_fread(file.get(), &more, 1);
     if (beyond < 0) return tl::unexpected(read_error(what, zip_file_get_error(file.get())));
     if (beyond > 0 || got != entry.bytes) {
-        return fail(ErrorCode::kUnreadable, what + " is damaged. Download the archive again.");
+        return fail(ErrorCode::kUnreadable, what + " is damaged.", "Download the archive again.");
     }
     return out;
 }

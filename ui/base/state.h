@@ -258,6 +258,13 @@ struct WarpToolState {
     std::shared_ptr<const SurfacePlaces> places;
 };
 
+/// What the document gives way to.
+struct LeaveFor {
+    enum class Kind { kQuit, kNew, kDemo, kBrowse, kClose, kPath };
+    Kind kind = Kind::kQuit;
+    std::string path;  ///< Of kPath.
+};
+
 struct UiState {
     std::uint64_t document = 0;  ///< SessionView::document that the rest belongs to.
     Workspace workspace = Workspace::kMask;
@@ -285,8 +292,8 @@ struct UiState {
     bool leave_asked = false;  ///< Closing was requested.
     bool leave = false;        ///< Closing is confirmed.
     bool leave_when_saved = false;
-    std::string leave_then;  ///< "": quit; otherwise a path to open.
-    int tour_step = -1;      ///< −1: no tour.
+    LeaveFor leave_then;
+    int tour_step = -1;  ///< −1: no tour.
     TransformState transform;
     WarpToolState warp;
     bool snap = false;  ///< What is dragged snaps to edges of the plate; Ctrl turns it around.

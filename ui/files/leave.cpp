@@ -1,5 +1,6 @@
 // Leaving the document, and the question before it.
 #include <algorithm>
+#include <utility>
 
 #include "ui/files/files.h"
 #include "ui/widgets/sheet.h"
@@ -7,51 +8,56 @@
 
 namespace weft::ui {
 
-void leave_for(Ctx& c, const std::string& what) {
-    if (c.view.modified) {
-        c.state.leave_asked = true;
-        c.state.leave_then = what;
-        return;
+namespace {
+
+void leave_now(Ctx& c, const LeaveFor& what) {
+    switch (what.kind) {
+        case LeaveFor::Kind::kQuit:
+            c.state.leave = true;
+            break;
+        case LeaveFor::Kind::kNew:
+            c.emit(NewProject{});
+            break;
+        case LeaveFor::Kind::kDemo:
+            c.emit(OpenDemo{});
+            break;
+        case LeaveFor::Kind::kBrowse:
+            c.state.browser = {};
+            c.state.browser.purpose = BrowserState::Purpose::kOpen;
+            c.state.browser.just_opened = true;
+            break;
+        case LeaveFor::Kind::kClose:
+            c.emit(CloseProject{});
+            break;
+        case LeaveFor::Kind::kPath:
+            c.emit(OpenAny{what.path});
+            break;
     }
-    if (what == "demo") {
-        c.emit(OpenDemo{});
-    } else if (what == "new") {
-        c.emit(NewProject{});
-    } else if (what == "close") {
-        c.emit(CloseProject{});
-    } else if (what == "browse") {
-        c.state.browser = {};
-        c.state.browser.purpose = BrowserState::Purpose::kOpen;
-        c.state.browser.just_opened = true;
-    } else if (what.starts_with('/')) {
-        c.emit(OpenAny{what});
-    } else if (what.empty()) {
-        c.state.leave = true;
-    }
+}
+
+}  // namespace
+
+void leave_for(Ctx& c, const LeaveFor& what) {
+    if (!c.view.modified) return leave_now(c, what);
+    c.state.leave_asked = true;
+    c.state.leave_then = what;
 }
 
 void leave_question(Ctx& c) {
     if (!c.state.leave_asked) return;
     const auto go = [&] {
         c.state.leave_asked = c.state.leave_when_saved = false;
-        const std::string then = c.state.leave_then;
-        c.state.leave_then.clear();
-        if (then.empty()) c.state.leave = true;
-        if (then == "demo") c.emit(OpenDemo{});
-        if (then == "new") c.emit(NewProject{});
-        if (then == "close") c.emit(CloseProject{});
-        if (then == "browse") c.state.browser.purpose = BrowserState::Purpose::kOpen;
-        if (then.starts_with("/")) c.emit(OpenAny{then});
+        leave_now(c, std::exchange(c.state.leave_then, {}));
     };
     // Leave only after the save; if it failed, a notice says why and the document stays open.
     if (c.state.leave_when_saved) {
         if (c.view.saving) return;
         if (!c.view.modified) return go();
         c.state.leave_asked = c.state.leave_when_saved = false;
-        c.state.leave_then.clear();
+        c.state.leave_then = {};
         return;
     }
-    if (!c.view.modified && c.state.leave_then.empty()) {
+    if (!c.view.modified && c.state.leave_then.kind == LeaveFor::Kind::kQuit) {
         const bool rendering =
             std::any_of(c.view.jobs.begin(), c.view.jobs.end(), [](const JobView& j) {
                 return j.state == JobState::kRunning || j.state == JobState::kPaused;
@@ -96,7 +102,7 @@ void leave_question(Ctx& c) {
     ImGui::SameLine();
     if (button(c, "Stay") || !open) {
         c.state.leave_asked = false;
-        c.state.leave_then.clear();
+        c.state.leave_then = {};
     }
     end_sheet(c);
 }

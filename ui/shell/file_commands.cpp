@@ -33,12 +33,15 @@ Command command(const char* id, const char* category, const char* name, const ch
 }
 
 void add_file_commands(std::vector<Command>& out) {
-    out.push_back(command("file.new", "File", "New project", icons::kFile, "Ctrl+N",
-                          [](Ctx& c) { ui::leave_for(c, "new"); }));
-    out.push_back(command("file.open", "File", "Open…", icons::kFolderOpen, "Ctrl+O",
-                          [](Ctx& c) { ui::leave_for(c, "browse"); }));
-    out.push_back(command("file.demo", "File", "Open demo shot", icons::kFilm, "",
-                          [](Ctx& c) { ui::leave_for(c, "demo"); }));
+    out.push_back(command("file.new", "File", "New project", icons::kFile, "Ctrl+N", [](Ctx& c) {
+        ui::leave_for(c, {LeaveFor::Kind::kNew, {}});
+    }));
+    out.push_back(command("file.open", "File", "Open…", icons::kFolderOpen, "Ctrl+O", [](Ctx& c) {
+        ui::leave_for(c, {LeaveFor::Kind::kBrowse, {}});
+    }));
+    out.push_back(command("file.demo", "File", "Open demo shot", icons::kFilm, "", [](Ctx& c) {
+        ui::leave_for(c, {LeaveFor::Kind::kDemo, {}});
+    }));
     out.push_back(command(
         "file.save", "File", "Save", icons::kSave, "Ctrl+S",
         [](Ctx& c) {
@@ -72,9 +75,13 @@ void add_file_commands(std::vector<Command>& out) {
         [](Ctx& c) { browse(c, BrowserState::Purpose::kTextureFolder); }, is_open));
     out.push_back(command(
         "file.close", "File", "Close project", icons::kClose, "Ctrl+W",
-        [](Ctx& c) { ui::leave_for(c, "close"); }, is_open));
-    out.push_back(
-        command("file.quit", "File", "Quit", "", "Ctrl+Q", [](Ctx& c) { ui::leave_for(c, ""); }));
+        [](Ctx& c) {
+            ui::leave_for(c, {LeaveFor::Kind::kClose, {}});
+        },
+        is_open));
+    out.push_back(command("file.quit", "File", "Quit", "", "Ctrl+Q", [](Ctx& c) {
+        ui::leave_for(c, {LeaveFor::Kind::kQuit, {}});
+    }));
 }
 
 }  // namespace weft

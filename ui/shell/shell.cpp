@@ -106,7 +106,7 @@ void Shell::set_look(bool dark, bool grey_surround, float scale) {
 void Shell::open_dropped(const std::string& path, const SessionView& view) {
     if (view.modified && !view.project.plate.path.empty()) {
         state_.leave_asked = true;
-        state_.leave_then = path;
+        state_.leave_then = {LeaveFor::Kind::kPath, path};
         return;
     }
     dropped_.push_back(OpenAny{path});
@@ -114,7 +114,7 @@ void Shell::open_dropped(const std::string& path, const SessionView& view) {
 
 void Shell::ask_to_leave() {
     state_.leave_asked = true;
-    state_.leave_then.clear();
+    state_.leave_then = {};
 }
 
 std::vector<Action> Shell::draw(const SessionView& view) {

@@ -31,7 +31,7 @@ void recent_menu(Ctx& c) {
         const std::string name = path.substr(slash + 1), folder = path.substr(0, slash);
         ImGui::PushID(path.c_str());
         if (ImGui::MenuItem(name.c_str(), fitted(folder, c.theme.px(280), true).c_str()))
-            leave_for(c, path);
+            leave_for(c, {LeaveFor::Kind::kPath, path});
         c.note("Recent " + name);
         ImGui::PopID();
     }

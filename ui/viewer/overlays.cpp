@@ -256,7 +256,7 @@ void draw_provenance(Ctx& c, ImDrawList& list, const ViewMap& map, bool hovered)
         "From " +
         pair(static_cast<double>(found.on_reference.x), static_cast<double>(found.on_reference.y)) +
         " on frame " + std::to_string(from.reference_frame));
-    for (const Provenance::Answer::Share& share : found.histories)
+    for (const Provenance::Answer::Share& share : found.tracks)
         lines.push_back("Track from frame " + std::to_string(share.frame) + ", weight " +
                         number_text(static_cast<double>(share.weight), 2));
     if (found.made_anew > 0)

@@ -239,7 +239,7 @@ void print_shot_case(const std::string& name, const nlohmann::ordered_json& figu
 
 CommandResult report_shot(const BenchOptions& options) {
     if (options.shot.matte.empty())
-        return fail(ErrorCode::kUsage, "--shot needs the mattes of its frames. Add --matte.");
+        return fail(ErrorCode::kUsage, "--shot needs the mattes of its frames.", "Add --matte.");
     ShotBenchOptions shot = options.shot;
     shot.texture = options.sample;
     shot.program = "/proc/self/exe";

@@ -30,9 +30,9 @@ void add_form_command(CLI::App& app, CommandResult& result) {
             return fail(ErrorCode::kUsage,
                         "A project has its own mattes, motion and form, and options for them were "
                         "given beside " +
-                            *path +
-                            ". Change a region with 'weft region set', or leave the project or "
-                            "these options out.");
+                            *path + ".",
+                        "Change a region with 'weft region set', or leave the project or these "
+                        "options out.");
         }
         WEFT_TRY(written, load_project(*path));
         Project project = resolve_paths(written, project_dir(*path));

@@ -79,17 +79,16 @@ std::string checked_text(const std::string& text) {
 std::string contradiction_text(const std::string& text) {
     static constexpr std::string_view kVerb = " excludes ";
     const std::size_t at = text.find(kVerb);
-    if (at == std::string::npos) return "Two options contradict each other. Leave one out.";
+    if (at == std::string::npos) return "Two options contradict each other.";
     const auto [first, second] = std::minmax({text.substr(0, at), text.substr(at + kVerb.size())});
-    return fmt::format("{} and {} contradict each other. Leave one out.", first, second);
+    return fmt::format("{} and {} contradict each other.", first, second);
 }
 
 std::string needed_text(const std::string& text) {
     static constexpr std::string_view kVerb = " requires ";
     const std::size_t at = text.find(kVerb);
-    if (at == std::string::npos) return "An option needs another one. Give both or neither.";
-    return fmt::format("{} needs {}. Give both or neither.", text.substr(0, at),
-                       text.substr(at + kVerb.size()));
+    if (at == std::string::npos) return "An option needs another one.";
+    return fmt::format("{} needs {}.", text.substr(0, at), text.substr(at + kVerb.size()));
 }
 
 std::string value_text(const CLI::App& command, const CLI::ParseError& error) {
@@ -137,10 +136,10 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error, int argc) {
     const CLI::App& command = chosen(app);
     const std::string name = command_of(app);
     const std::vector<std::string> names = command_names(command);
-    const std::string help = fmt::format(" Run '{} --help'.", name);
-    std::string what;
+    const std::string help = fmt::format("Run '{} --help'.", name);
+    std::string what, remedy = help;
     if (argc < 2) {
-        what = "No command was given." + help;
+        what = "No command was given.";
     } else if (!names.empty()) {
         // A command group: the next word should name one of its commands.
         const std::vector<std::string> left = app.remaining(true);
@@ -148,22 +147,27 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error, int argc) {
                                        [](const std::string& w) { return !w.starts_with("-"); });
         what = word != left.end() ? fmt::format("'{}' is not a command of {}.", *word, name)
                                   : fmt::format("{} needs a command: {}.", name, either(names));
-        what += help;
     } else if (dynamic_cast<const CLI::RequiredError*>(&error)) {
-        what = missing_text(command) + "." + help;
+        what = missing_text(command) + ".";
     } else if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
-        what = extra_text(app, name) + "." + help;
+        what = extra_text(app, name) + ".";
+    } else if (const auto* refused = dynamic_cast<const RefusedValue*>(&error)) {
+        what = checked_text(refused->option + ": " + refused->error.message);
+        remedy = refused->error.remedy;
     } else if (dynamic_cast<const CLI::ValidationError*>(&error)) {
         what = checked_text(error.what());
+        remedy.clear();
     } else if (dynamic_cast<const CLI::ExcludesError*>(&error)) {
         what = contradiction_text(error.what());
+        remedy = "Leave one out.";
     } else if (dynamic_cast<const CLI::RequiresError*>(&error)) {
         what = needed_text(error.what());
+        remedy = "Give both or neither.";
     } else {
-        what = value_text(command, error) + help;
+        what = value_text(command, error);
     }
     std::replace(what.begin(), what.end(), '\n', ' ');
-    return {ErrorCode::kUsage, what, {}};
+    return {ErrorCode::kUsage, what, remedy, {}};
 }
 
 void use_our_help(CLI::App& app) {

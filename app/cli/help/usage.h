@@ -2,10 +2,21 @@
 // Usage errors in Weft's own words.
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
 
 #include "engine/core/error.h"
 
 namespace weft {
+
+/// Thrown by an option's callback: CLI11's own error holds one text, without the remedy.
+class RefusedValue : public CLI::ValidationError {
+  public:
+    RefusedValue(const std::string& name, Error why)
+        : ValidationError(name, why.sentence()), option(name), error(std::move(why)) {}
+    std::string option;
+    Error error;
+};
 
 /// Converts a parse error of CLI11 to an error of kind Usage. `app` parsed the `argc` words.
 [[nodiscard]] Error usage_error(const CLI::App& app, const CLI::ParseError& error, int argc);

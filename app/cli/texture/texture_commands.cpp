@@ -134,7 +134,7 @@ CommandResult texture_build_command(const TextureCommandOptions& common,
         std::string what;
         for (const std::string& fault : report.unreachable)
             what += (what.empty() ? "" : " ") + fault;
-        answer.error = Error{ErrorCode::kUnreadable, what, {}};
+        answer.error = Error{ErrorCode::kUnreadable, what, {}, {}};
     }
     return answer;
 }
@@ -300,7 +300,7 @@ CommandResult texture_export_command(const TextureCommandOptions& common,
     WEFT_TRY(library, open_texture_library(common, false));
     WEFT_TRY(ids, ids_to_export(*library, o));
     if (ids.empty())
-        return fail(ErrorCode::kUsage, "Nothing to export. Give ids or --search words.");
+        return fail(ErrorCode::kUsage, "Nothing to export.", "Give ids or --search words.");
     WEFT_TRY(rule, write_rule(o.write, {}));
     std::vector<std::pair<std::string, TextureInfo>> files;
     std::vector<ImageU8x3> pictures;
@@ -358,7 +358,7 @@ CommandResult texture_evaluate_command(const TextureCommandOptions& common,
 CommandResult texture_model_command(const TextureCommandOptions& common,
                                     const TextureModelOptions& o) {
     if (o.none && !o.folder.empty())
-        return fail(ErrorCode::kUsage, "--none contradicts a folder. Give one of the two.");
+        return fail(ErrorCode::kUsage, "--none contradicts a folder.", "Give one of the two.");
     WEFT_TRY(library, open_texture_library(common, false));
     if (o.none || !o.folder.empty()) {
         // Absolute, since the library may be opened from any folder.

@@ -45,8 +45,8 @@ Status mark_one(TextureLibrary& library, const std::string& id, const MarkOption
 // Looks up all ids before changing the first sample, so an unknown id changes nothing.
 CommandResult mark(const TextureCommandOptions& common, const MarkOptions& o) {
     if (o.empty())
-        return fail(ErrorCode::kUsage,
-                    "Nothing to do. Give --favourite, --rating, --collect, --material or --tags.");
+        return fail(ErrorCode::kUsage, "Nothing to do.",
+                    "Give --favourite, --rating, --collect, --material or --tags.");
     WEFT_TRY(library, open_texture_library(common, false));
     std::vector<std::string> ids;
     for (const std::string& id : o.ids) {

@@ -58,15 +58,17 @@ Expected<int> frame_of(const Region& region, const FrameReader& plate) {
 
 Expected<MatteFiles> matte_of(const Region& region, int frame, int first) {
     if (!region.matte->shape.empty())
-        return fail(ErrorCode::kUsage, "Region '" + region.name +
-                                           "' is drawn from a shape, which this command does not "
-                                           "draw. Give its matte as a file with --matte.");
+        return fail(
+            ErrorCode::kUsage,
+            "Region '" + region.name + "' is drawn from a shape, which this command does not draw.",
+            "Give its matte as a file with --matte.");
     if (region.matte->files.empty()) {
         const auto key = region.matte->keyframes.find(frame);
         if (key != region.matte->keyframes.end()) return MatteFiles::single(key->second.path);
-        return fail(ErrorCode::kUsage, "Region '" + region.name +
-                                           "' has no matte painted on frame " +
-                                           std::to_string(frame) + ". Give another --frame.");
+        return fail(ErrorCode::kUsage,
+                    "Region '" + region.name + "' has no matte painted on frame " +
+                        std::to_string(frame) + ".",
+                    "Give another --frame.");
     }
     return MatteFiles::parse(region.matte->files, first);
 }

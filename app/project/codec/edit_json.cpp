@@ -35,7 +35,7 @@ Expected<int> read_frame(ObjectReader& object) {
 /// Errors: Unreadable when the key is missing.
 Expected<const Json*> required(ObjectReader& object, std::string_view key) {
     const Json* json = object.take(key);
-    if (!json) return fail_at(object.path_of(key), "This key is missing; add it");
+    if (!json) return fail_at(object.path_of(key), "This key is missing", "add it");
     return json;
 }
 
@@ -257,8 +257,8 @@ template <std::size_t I = 0>
 Expected<Edit> read_named(std::string_view name, ObjectReader& object) {
     if constexpr (I == std::variant_size_v<Edit>) {
         return fail_at(object.path_of("action"),
-                       fmt::format("Unknown action '{}'. 'weft schema actions' lists them",
-                                   name.substr(0, 60)));
+                       fmt::format("Unknown action '{}'.", name.substr(0, 60)),
+                       "'weft schema actions' lists them");
     } else {
         if (name != kNames[I]) return read_named<I + 1>(name, object);
         std::variant_alternative_t<I, Edit> edit;
@@ -284,10 +284,9 @@ Expected<std::vector<Edit>> edits_from_json(std::string_view text) {
         WEFT_TRY(object, ObjectReader::open(document, ""));
         WEFT_TRY(schema, object.text("schema"));
         if (schema != "weft.actions/1")
-            return fail_at(
-                "schema",
-                fmt::format("'{}' is not 'weft.actions/1'; update Weft, or correct the file",
-                            schema.substr(0, 60)));
+            return fail_at("schema",
+                           fmt::format("'{}' is not 'weft.actions/1'", schema.substr(0, 60)),
+                           "update Weft, or correct the file");
         WEFT_TRY(actions, required(object, "actions"));
         list = actions;
     }

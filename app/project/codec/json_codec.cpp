@@ -9,10 +9,12 @@
 namespace weft::json_codec {
 namespace {
 
+constexpr const char* kOpenAnother = "open a file that Weft saved";
+
 /// Thrown from the parser's callback and caught in parse(), as the parser cannot be stopped
 /// otherwise.
 struct Refused {
-    std::string message;
+    std::string message, remedy;
 };
 
 /// Checks nesting depth and duplicate keys while parsing; of duplicate keys the parser would
@@ -23,20 +25,20 @@ class ParseGuard {
         using Event = nlohmann::json::parse_event_t;
         if (depth > kMaxJsonDepth)
             throw Refused{
-                fmt::format("It is nested more than {} levels deep, which no Weft file is; open a "
-                            "file that Weft saved",
-                            kMaxJsonDepth)};
+                fmt::format("It is nested more than {} levels deep, which no Weft file is",
+                            kMaxJsonDepth),
+                kOpenAnother};
         if (event == Event::object_start) keys_.emplace_back();
         if (event == Event::object_end) keys_.pop_back();
         if (event != Event::key) return true;
         if (keys_.back().size() >= kMaxJsonKeys)
-            throw Refused{
-                fmt::format("An object has more than {} keys, which no Weft file has; open a file "
-                            "that Weft saved",
-                            kMaxJsonKeys)};
+            throw Refused{fmt::format("An object has more than {} keys, which no Weft file has",
+                                      kMaxJsonKeys),
+                          kOpenAnother};
         if (!keys_.back().insert(parsed.get<std::string>()).second)
-            throw Refused{fmt::format("The key '{}' occurs twice in one object; remove one of them",
-                                      parsed.get<std::string>())};
+            throw Refused{
+                fmt::format("The key '{}' occurs twice in one object", parsed.get<std::string>()),
+                "remove one of them"};
         return true;
     }
 
@@ -63,15 +65,14 @@ Expected<Json> parse(std::string_view text) {
     try {
         return Json::parse(text, ParseGuard());
     } catch (const Refused& refused) {
-        return fail(ErrorCode::kUnreadable, refused.message);
+        return fail(ErrorCode::kUnreadable, refused.message, refused.remedy);
     } catch (const Json::parse_error& error) {
         return fail(ErrorCode::kUnreadable,
-                    fmt::format("It is not valid JSON at {}; correct it or restore a backup",
-                                place_of(text, error.byte)));
+                    fmt::format("It is not valid JSON at {}", place_of(text, error.byte)),
+                    "correct it or restore a backup");
     } catch (const Json::exception&) {
-        return fail(ErrorCode::kUnreadable,
-                    "It is not valid JSON: a number is out of range; correct it or restore a "
-                    "backup");
+        return fail(ErrorCode::kUnreadable, "It is not valid JSON: a number is out of range",
+                    "correct it or restore a backup");
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::kNoSpace, "Not enough memory to read it");
     }
@@ -81,12 +82,17 @@ Expected<std::string> to_text(const OrderedJson& value) {
     try {
         return value.dump(2) + "\n";
     } catch (const OrderedJson::exception&) {
-        return fail(ErrorCode::kUsage, "A name or path is not UTF-8 text; rename it");
+        return fail(ErrorCode::kUsage, "A name or path is not UTF-8 text", "rename it");
     }
 }
 
-tl::unexpected<Error> fail_at(const std::string& path, std::string message) {
-    return fail(ErrorCode::kUnreadable, path.empty() ? std::move(message) : path + ": " + message);
+tl::unexpected<Error> fail_at(const std::string& path, std::string message, std::string remedy) {
+    return fail(ErrorCode::kUnreadable, path.empty() ? std::move(message) : path + ": " + message,
+                std::move(remedy));
+}
+
+tl::unexpected<Error> fail_at(const std::string& path, const Error& error) {
+    return fail_at(path, error.message, error.remedy);
 }
 
 std::string_view type_of(const Json& value) {
@@ -133,14 +139,14 @@ Extras ObjectReader::rest() const {
 Status ObjectReader::expect_no_rest() const {
     for (const auto& [key, value] : value_->items())
         if (!taken_.contains(key))
-            return fail_at(path_of(key), "This key is not known here; correct or remove it");
+            return fail_at(path_of(key), "This key is not known here", "correct or remove it");
     return {};
 }
 
 Expected<std::int64_t> ObjectReader::integer(std::string_view key, std::int64_t low,
                                              std::int64_t high) {
     const Json* json = take(key);
-    if (!json) return fail_at(path_of(key), "This key is missing; add it");
+    if (!json) return fail_at(path_of(key), "This key is missing", "add it");
     // Compared as double first, so that a number beyond 64 bits does not wrap into the range.
     const bool fits = json->is_number_integer() &&
                       json->get<double>() >= static_cast<double>(low) &&
@@ -153,7 +159,7 @@ Expected<std::int64_t> ObjectReader::integer(std::string_view key, std::int64_t 
 
 Expected<std::string> ObjectReader::text(std::string_view key) {
     const Json* json = take(key);
-    if (!json) return fail_at(path_of(key), "This key is missing; add it");
+    if (!json) return fail_at(path_of(key), "This key is missing", "add it");
     if (!json->is_string())
         return fail_at(path_of(key),
                        fmt::format("This is {}, but must be a string", type_of(*json)));

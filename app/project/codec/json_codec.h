@@ -26,8 +26,10 @@ using OrderedJson = nlohmann::ordered_json;  // keys in writing order, for reada
 [[nodiscard]] Expected<std::string> to_text(const OrderedJson& value);
 
 /// An error that begins with its place: "regions[0].placement.scale: …"; an empty path means the
-/// whole document.
-[[nodiscard]] tl::unexpected<Error> fail_at(const std::string& path, std::string message);
+/// whole document. The second keeps an error's sentence and its remedy.
+[[nodiscard]] tl::unexpected<Error> fail_at(const std::string& path, std::string message,
+                                            std::string remedy = {});
+[[nodiscard]] tl::unexpected<Error> fail_at(const std::string& path, const Error& error);
 [[nodiscard]] std::string_view type_of(const Json& value);
 
 /// Reads one JSON object and records which keys were read. Refers to the object and must not
@@ -108,7 +110,7 @@ template <class Owner>
         const std::string path = object.path_of(parameter.key);
         WEFT_TRY(value, read_value(*json, path));
         if (auto status = set_parameter(owner, parameter, std::move(value)); !status)
-            return fail_at(path, status.error().message);
+            return fail_at(path, status.error());
     }
     return {};
 }

@@ -46,7 +46,7 @@ Expected<KeyedNumbers> read_key_list(const Json& json, const std::string& path) 
         keys.push_back(std::move(key));
     }
     auto sorted = sorted_keys(std::move(keys));
-    if (!sorted) return fail_at(path, sorted.error().message + "; remove one of them");
+    if (!sorted) return fail_at(path, sorted.error().message, "remove one of them");
     return sorted;
 }
 
@@ -69,7 +69,7 @@ Expected<ParameterValue> read_lamps(const Json& value, const std::string& path) 
             return fail_at(object.path_of("kind"), "This must be point, directional or gradient");
         const Json* keys = object.take("keys");
         WEFT_CHECK_OK(object.expect_no_rest());
-        if (!keys) return fail_at(object.path_of("keys"), "This key is missing; add it");
+        if (!keys) return fail_at(object.path_of("keys"), "This key is missing", "add it");
         WEFT_TRY(numbers, read_key_list(*keys, object.path_of("keys")));
         lamps.push_back({info->kind, std::move(numbers)});
     }

@@ -18,8 +18,8 @@ Expected<std::map<int, MatteKeyframe>> read_keyframes(const Json& json, const st
         WEFT_TRY(frame, object.integer("frame", -kMaxFrameNumber, kMaxFrameNumber));
         WEFT_TRY(file, object.text("path"));
         if (file.find('\0') != std::string::npos)
-            return fail_at(object.path_of("path"),
-                           "This path contains a zero character; remove it");
+            return fail_at(object.path_of("path"), "This path contains a zero character",
+                           "remove it");
         MatteKeyframe key{std::move(file)};
         if (const Json* shape = object.take("shape")) {
             WEFT_TRY(read, read_shape(*shape, object.path_of("shape")));
@@ -29,8 +29,8 @@ Expected<std::map<int, MatteKeyframe>> read_keyframes(const Json& json, const st
             key.shape_between = between->is_boolean() && between->get<bool>();
         key.extra = object.rest();
         if (!out.emplace(static_cast<int>(frame), std::move(key)).second)
-            return fail_at(object.path(),
-                           fmt::format("Frame {} has two keyframes; remove one of them", frame));
+            return fail_at(object.path(), fmt::format("Frame {} has two keyframes", frame),
+                           "remove one of them");
     }
     return out;
 }
@@ -52,8 +52,8 @@ Expected<std::map<int, ConfirmedEdge>> read_confirmed(const Json& json, const st
         }
         edge.extra = object.rest();
         if (!out.emplace(static_cast<int>(frame), std::move(edge)).second)
-            return fail_at(object.path(),
-                           fmt::format("Frame {} is listed twice; remove one of them", frame));
+            return fail_at(object.path(), fmt::format("Frame {} is listed twice", frame),
+                           "remove one of them");
     }
     return out;
 }

@@ -81,8 +81,8 @@ Expected<std::map<int, std::vector<CorrectionPin>>> read_corrections(const Json&
         if (!list || list->empty()) return fail_at(object.path(), "A correction needs its pins");
         WEFT_TRY(pins, read_pins(*list, object.path_of("pins")));
         if (!out.emplace(static_cast<int>(frame), std::move(pins)).second)
-            return fail_at(object.path(),
-                           fmt::format("Frame {} has two corrections; remove one", frame));
+            return fail_at(object.path(), fmt::format("Frame {} has two corrections", frame),
+                           "remove one");
     }
     return out;
 }
@@ -97,9 +97,8 @@ Expected<std::vector<Region>> read_regions(const Json& json, const std::string& 
         const std::string where = fmt::format("{}[{}]", path, i);
         WEFT_TRY(region, read_region(json[i], where));
         if (region.id != 0 && !ids.insert(region.id).second)
-            return fail_at(
-                where + ".id",
-                fmt::format("Two regions have the id {}; give one of them another", region.id));
+            return fail_at(where + ".id", fmt::format("Two regions have the id {}", region.id),
+                           "give one of them another");
         out.push_back(std::move(region));
     }
     return out;

@@ -112,8 +112,7 @@ Status upgrade_text_1(Json& region, const char* group, const char* key, const st
     const auto found = holder->find(key);
     if (found == holder->end() || !found->is_string()) return {};
     auto upgraded = parse(found->template get<std::string>());
-    if (!upgraded)
-        return fail_at(fmt::format("{}{}.{}", path, group, key), upgraded.error().message);
+    if (!upgraded) return fail_at(fmt::format("{}{}.{}", path, group, key), upgraded.error());
     *found = std::move(*upgraded);
     return {};
 }
@@ -239,30 +238,27 @@ std::optional<int> version_of(std::string_view schema) {
 Status upgrade_to_current(Json& document) {
     if (!document.is_object())
         return fail_at(
-            "",
-            fmt::format("It contains {}, so it is not a Weft project; open a file that Weft saved",
-                        type_of(document)));
+            "", fmt::format("It contains {}, so it is not a Weft project", type_of(document)),
+            "open a file that Weft saved");
     const auto schema = document.find("schema");
     if (schema == document.end())
-        return fail_at(
-            "schema",
-            "This key is missing, so it is not a Weft project; open a file that Weft saved");
+        return fail_at("schema", "This key is missing, so it is not a Weft project",
+                       "open a file that Weft saved");
     if (!schema->is_string())
         return fail_at("schema", fmt::format("This is {}, but must be a string", type_of(*schema)));
     const std::string name = schema->get<std::string>();
     const std::optional<int> version = version_of(name);
     if (!version)
-        return fail_at(
-            "schema",
-            fmt::format(
-                "'{}' is not a Weft project, which says '{}/{}'; open a file that Weft saved",
-                name.substr(0, 60), kProjectSchemaName, kProjectSchemaVersion));
+        return fail_at("schema",
+                       fmt::format("'{}' is not a Weft project, which says '{}/{}'",
+                                   name.substr(0, 60), kProjectSchemaName, kProjectSchemaVersion),
+                       "open a file that Weft saved");
     if (*version > kProjectSchemaVersion)
         return fail_at(
             "schema",
-            fmt::format("The project has version {}, and this Weft reads up to version {}; "
-                        "update Weft, or open it with the Weft that wrote it",
-                        *version, kProjectSchemaVersion));
+            fmt::format("The project has version {}, and this Weft reads up to version {}",
+                        *version, kProjectSchemaVersion),
+            "update Weft, or open it with the Weft that wrote it");
     for (int n = *version; n < kProjectSchemaVersion; ++n)
         WEFT_CHECK_OK(kUpgrades[static_cast<std::size_t>(n)](document));
     document["schema"] = fmt::format("{}/{}", kProjectSchemaName, kProjectSchemaVersion);

@@ -56,7 +56,7 @@ Expected<std::map<int, RotoShape>> read_shape_keys(const Json& json, const std::
         WEFT_TRY(shape, read_points(object, where));
         WEFT_CHECK_OK(object.expect_no_rest());
         if (!out.emplace(static_cast<int>(frame), std::move(shape)).second)
-            return fail_at(path, fmt::format("Frame {} has two keys; remove one of them", frame));
+            return fail_at(path, fmt::format("Frame {} has two keys", frame), "remove one of them");
     }
     return out;
 }
@@ -87,7 +87,7 @@ Expected<KeyedShape> read_keyed_shape(const Json& value, const std::string& path
     }
     const Json* keys = object.take("keys");
     WEFT_CHECK_OK(object.expect_no_rest());
-    if (!keys) return fail_at(object.path_of("keys"), "This key is missing; add it");
+    if (!keys) return fail_at(object.path_of("keys"), "This key is missing", "add it");
     WEFT_TRY(shapes, read_shape_keys(*keys, object.path_of("keys")));
     out.keys = std::move(shapes);
     return out;

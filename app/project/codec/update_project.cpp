@@ -60,9 +60,8 @@ Expected<Project> update_project(const std::string& path, const ProjectEdit& edi
         if (saved) return after;
     }
     return fail(ErrorCode::kUnreadable,
-                path +
-                    " is changed by another program again and again while this one writes it. "
-                    "Close that program and try again.");
+                path + " is changed by another program again and again while this one writes it.",
+                "Close that program and try again.");
 }
 
 }  // namespace weft

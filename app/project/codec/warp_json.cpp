@@ -58,12 +58,12 @@ Status read_warp_keys(const Json& json, const std::string& path, GridWarp& warp)
         WEFT_TRY(frame, object.integer("frame", -kMaxFrameNumber, kMaxFrameNumber));
         const Json* given = object.take("points");
         WEFT_CHECK_OK(object.expect_no_rest());
-        if (!given) return fail_at(object.path_of("points"), "This key is missing; add it");
+        if (!given) return fail_at(object.path_of("points"), "This key is missing", "add it");
         WEFT_TRY(points, read_grid(*given, object.path_of("points"), warp.count()));
         const std::size_t before = warp.keys.size();
         set_key(warp, static_cast<int>(frame), std::move(points));
         if (warp.keys.size() == before)
-            return fail_at(path, fmt::format("Frame {} has two keys; remove one of them", frame));
+            return fail_at(path, fmt::format("Frame {} has two keys", frame), "remove one of them");
     }
     return {};
 }

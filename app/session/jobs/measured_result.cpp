@@ -86,8 +86,8 @@ Status measure_result(const MeasuredResult& what, SharedReport& shared) {
             step.motion = &motion;
             if (const auto field = what.track(kept.frame, frame)) {
                 const TemporalError least =
-                    carried_tde(kept.result, dense_flow(*field), motion,
-                                visible_in_both(motion, kept.matte, matte, options.erode_px));
+                    warped_tde(kept.result, dense_flow(*field), motion,
+                               visible_in_both(motion, kept.matte, matte, options.erode_px));
                 if (least.pixels > 0) floor = static_cast<float>(least.tde);
             }
         }

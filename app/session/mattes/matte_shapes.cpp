@@ -26,7 +26,8 @@ Expected<KeyedShape> keyed_shape_of(const MatteSource& matte) {
         if (!key.shape)
             return fail(ErrorCode::kUsage,
                         "The keyframe of frame " + std::to_string(frame) +
-                            " was painted, and a shape cannot follow it. Remove it first.");
+                            " was painted, and a shape cannot follow it.",
+                        "Remove it first.");
         out.keys[frame] = *key.shape;
     }
     if (out.keys.empty()) return fail(ErrorCode::kUsage, "Draw a shape first.");
@@ -35,8 +36,8 @@ Expected<KeyedShape> keyed_shape_of(const MatteSource& matte) {
         if (shape.points.size() != first.second.points.size())
             return fail(ErrorCode::kUsage,
                         "The shapes of frames " + std::to_string(first.first) + " and " +
-                            std::to_string(frame) +
-                            " have different numbers of points. Give them the same points first.");
+                            std::to_string(frame) + " have different numbers of points.",
+                        "Give them the same points first.");
     return out;
 }
 
@@ -89,7 +90,7 @@ void MatteShapes::follow(const FollowShape& action) {
     const int layer = use_.selection.layer;
     const MatteSource& source = layer_source(*followed, layer);
     auto shape = keyed_shape_of(source);
-    if (!shape) return use_.notices.add(NoticeKind::kWarning, shape.error().message);
+    if (!shape) return use_.notices.add(NoticeKind::kWarning, shape.error().sentence());
     const bool tracks = action.follow != ShapeFollow::kNone && action.track.empty() &&
                         (action.again || shape->track.empty());
     if (tracks) return track(action, shape->keys.begin()->second, shape->keys.begin()->first);

@@ -14,8 +14,8 @@ Expected<double> texture_pitch(const std::string& path, Vec2 along) {
     const Size axis = find_period(codes->srgb).axis_px();
     const double pitch = std::abs(along.x) >= std::abs(along.y) ? axis.width : axis.height;
     if (pitch >= 2) return pitch;
-    return fail(ErrorCode::kUsage,
-                "No regular bricks or tiles are found in this texture. Set its scale by hand.");
+    return fail(ErrorCode::kUsage, "No regular bricks or tiles are found in this texture.",
+                "Set its scale by hand.");
 }
 
 }  // namespace weft

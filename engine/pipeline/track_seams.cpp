@@ -1,4 +1,4 @@
-#include "engine/pipeline/history_seams.h"
+#include "engine/pipeline/track_seams.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kStride = 2;  // every other pixel of a frame is evidence
 
-// The histories of one frame and what is seen of the region on it; empty where they agree.
+// The tracks of one frame and what is seen of the region on it; empty where they agree.
 struct Layers {
     LatticeField before, after, place;  // place: where both are held to lie on the reference frame
     Matte visible;
@@ -44,22 +44,22 @@ class SeamMaker {
           plane_(plane),
           form_(form) {}
 
-    Expected<std::optional<HistorySeam>> make(int first, int last) {
+    Expected<std::optional<TrackSeam>> make(int first, int last) {
         std::vector<Layers> frames(static_cast<std::size_t>(last - first - 1));
         bool any = false;
         for (int f = first + 1; f < last; ++f) {
-            if (!store_.has({index_, f, AnalysisKind::kHistoryAfter})) continue;
+            if (!store_.has({index_, f, AnalysisKind::kTrackAfter})) continue;
             WEFT_TRY(layers, layers_at(f));
             frames[static_cast<std::size_t>(f - first - 1)] = std::move(layers);
             any = true;
         }
-        if (!any) return std::optional<HistorySeam>();
-        HistorySeam seam;
+        if (!any) return std::optional<TrackSeam>();
+        TrackSeam seam;
         seam.first = first;
         seam.last = last;
         const Size cells = choose_cells(frames, frames.size(), seam);
-        if (cells.empty()) return std::optional<HistorySeam>();
-        std::vector<HistoryEvidence> evidence;
+        if (cells.empty()) return std::optional<TrackSeam>();
+        std::vector<TrackEvidence> evidence;
         std::vector<std::size_t> drawing;  // of every frame: frames that are held change together
         for (std::size_t t = 0; t < frames.size(); ++t) {
             const int frame = first + 1 + static_cast<int>(t);
@@ -70,17 +70,17 @@ class SeamMaker {
             drawing.push_back(evidence.size() - 1);
         }
         const std::uint64_t seed = plan_.seed ^ region_.random_key;
-        const auto labels = cut_histories(evidence, {.lambda = region_.weight, .seed = seed});
+        const auto labels = cut_between_tracks(evidence, {.lambda = region_.weight, .seed = seed});
         for (const std::size_t k : drawing)
             seam.after.push_back(labels[k]);
-        return std::optional<HistorySeam>(std::move(seam));
+        return std::optional<TrackSeam>(std::move(seam));
     }
 
     // Over the frames first to last, which follow (or, walked backwards, precede) a frame on which
     // a stretched texture was let go. Both textures lie still on the surface, so what that one
     // frame shows of them stands for all: the seam does not depend on how many frames there are.
-    Expected<HistorySeam> make_release(int first, int last, bool backwards) {
-        HistorySeam seam;
+    Expected<TrackSeam> make_release(int first, int last, bool backwards) {
+        TrackSeam seam;
         seam.first = first - 1;
         seam.last = last + 1;
         const int event = backwards ? last : first;
@@ -91,8 +91,8 @@ class SeamMaker {
         if (cells.empty()) return seam;
         WEFT_TRY(evidence, evidence_of(seen[0], event, seam, cells));
         const std::uint64_t seed = plan_.seed ^ region_.random_key;
-        const auto labels = cut_histories(std::vector(std::size_t{kReanchorFrames}, evidence),
-                                          {.lambda = region_.weight, .seed = seed});
+        const auto labels = cut_between_tracks(std::vector(std::size_t{kReanchorFrames}, evidence),
+                                               {.lambda = region_.weight, .seed = seed});
         std::size_t drawing = 0;
         for (int f = event;; f += backwards ? -1 : 1) {
             const bool held =
@@ -121,8 +121,8 @@ class SeamMaker {
 
     Expected<Layers> layers_at(int frame) const {
         Layers out;
-        WEFT_TRY(before, stored(frame, AnalysisKind::kHistoryBefore));
-        WEFT_TRY(after, stored(frame, AnalysisKind::kHistoryAfter));
+        WEFT_TRY(before, stored(frame, AnalysisKind::kTrackBefore));
+        WEFT_TRY(after, stored(frame, AnalysisKind::kTrackAfter));
         WEFT_TRY(place, stored(frame, AnalysisKind::kCoords));
         WEFT_TRY(extent, extent_matte(source_, plan_, store_, index_, frame));
         WEFT_TRY(holdout, holdout_matte(source_, plan_, store_, index_, frame));
@@ -135,7 +135,7 @@ class SeamMaker {
 
     // Cells over all of the surface that is seen, as small as the graph's size allows.
     static Size choose_cells(const std::vector<Layers>& frames, std::size_t times,
-                             HistorySeam& seam) {
+                             TrackSeam& seam) {
         Vec2 low(1e9f), high(-1e9f);
         for (const Layers& frame : frames) {
             if (frame.visible.empty()) continue;
@@ -166,7 +166,7 @@ class SeamMaker {
         }
     }
 
-    // The texture as a history shows it, at every sample, in display codes.
+    // The texture as a track shows it, at every sample, in display codes.
     ImageF3 shown(const LatticeField& ref_from_cur, const Layers& frame,
                   const TextureMapping& mapping) const {
         const Size size = samples_of(frame);
@@ -194,9 +194,9 @@ class SeamMaker {
         return out;
     }
 
-    Expected<HistoryEvidence> evidence_of(const Layers& frame, int number, const HistorySeam& seam,
-                                          Size cells) const {
-        HistoryEvidence out{ImageF1(cells), ImageF1(cells)};
+    Expected<TrackEvidence> evidence_of(const Layers& frame, int number, const TrackSeam& seam,
+                                        Size cells) const {
+        TrackEvidence out{ImageF1(cells), ImageF1(cells)};
         if (frame.visible.empty()) return out;
         WEFT_TRY(placed, texture_mapping(region_.placement_at(number)));
         const TextureMapping mapping = placed.with_form(form_on(region_, form_, number));
@@ -241,10 +241,11 @@ class SeamMaker {
 
 }  // namespace
 
-Expected<std::vector<HistorySeam>> make_history_seams(
-    const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store, int region,
-    const PlanePyramid& plane, const std::shared_ptr<const SurfaceForm>& form) {
-    std::vector<HistorySeam> out;
+Expected<std::vector<TrackSeam>> make_track_seams(const ShotSource& source, const ShotPlan& plan,
+                                                  const AnalysisStore& store, int region,
+                                                  const PlanePyramid& plane,
+                                                  const std::shared_ptr<const SurfaceForm>& form) {
+    std::vector<TrackSeam> out;
     const RegionPlan& settings = plan.regions[static_cast<std::size_t>(region)];
     if (settings.temporal != TemporalMode::kLocked) return out;
     std::vector<int> references = settings.reference_frames;
@@ -255,7 +256,7 @@ Expected<std::vector<HistorySeam>> make_history_seams(
         if (seam) out.push_back(std::move(*seam));
     }
     const auto released = [&](int frame) {
-        return store.has({region, frame, AnalysisKind::kHistoryAfter});
+        return store.has({region, frame, AnalysisKind::kTrackAfter});
     };
     const FrameSpan span = analysed_span(plan, settings);
     for (int first = span.first; first <= span.last; ++first) {

@@ -1,4 +1,4 @@
-#include "engine/temporal/history_seam.h"
+#include "engine/temporal/track_seam.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@ namespace {
 
 constexpr Size kCells{12, 10};
 
-std::vector<HistoryEvidence> frames_of(int count, float mismatch) {
-    return std::vector<HistoryEvidence>(static_cast<std::size_t>(count),
-                                        {ImageF1(kCells, mismatch), ImageF1(kCells, 16.0f)});
+std::vector<TrackEvidence> frames_of(int count, float mismatch) {
+    return std::vector<TrackEvidence>(static_cast<std::size_t>(count),
+                                      {ImageF1(kCells, mismatch), ImageF1(kCells, 16.0f)});
 }
 
-// On how many cells and frames the label goes back to the history before.
+// On how many cells and frames the label goes back to the track before.
 int returns(const std::vector<Image<std::uint8_t, 1>>& labels) {
     int count = 0;
     for (std::size_t t = 1; t < labels.size(); ++t) {
@@ -24,8 +24,8 @@ int returns(const std::vector<Image<std::uint8_t, 1>>& labels) {
     return count;
 }
 
-TEST(HistorySeam, EveryPlaceChangesOnceAndOnlyInTheMiddle) {
-    const auto labels = cut_histories(frames_of(20, 40), {.lambda = 1, .seed = 3});
+TEST(TrackSeam, EveryPlaceChangesOnceAndOnlyInTheMiddle) {
+    const auto labels = cut_between_tracks(frames_of(20, 40), {.lambda = 1, .seed = 3});
     ASSERT_EQ(labels.size(), 20u);
     EXPECT_EQ(returns(labels), 0);
     const auto shown = [&](std::size_t t) {
@@ -35,7 +35,7 @@ TEST(HistorySeam, EveryPlaceChangesOnceAndOnlyInTheMiddle) {
     EXPECT_EQ(shown(19), kCells.width * kCells.height);
 }
 
-TEST(HistorySeam, APlaceChangesWhileItIsHidden) {
+TEST(TrackSeam, APlaceChangesWhileItIsHidden) {
     auto frames = frames_of(20, 40);
     for (std::size_t t = 4; t < 7; ++t) {
         for (int y = 0; y < kCells.height; ++y) {
@@ -44,7 +44,7 @@ TEST(HistorySeam, APlaceChangesWhileItIsHidden) {
         }
     }
     // What a change costs counts for more than when it is due.
-    const auto labels = cut_histories(frames, {.lambda = 100, .seed = 3});
+    const auto labels = cut_between_tracks(frames, {.lambda = 100, .seed = 3});
     for (int y = 0; y < kCells.height; ++y) {
         for (int x = 0; x < kCells.width / 2 - 1; ++x) {
             EXPECT_EQ(labels[3].at(x, y), 0);
@@ -54,9 +54,9 @@ TEST(HistorySeam, APlaceChangesWhileItIsHidden) {
 }
 
 // Textures that differ strongly, few frames to change in, and a small surface: still no flash.
-TEST(HistorySeam, AShortIntervalDoesNotFlash) {
+TEST(TrackSeam, AShortIntervalDoesNotFlash) {
     for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-        const auto labels = cut_histories(frames_of(7, 60), {.lambda = 1, .seed = seed});
+        const auto labels = cut_between_tracks(frames_of(7, 60), {.lambda = 1, .seed = seed});
         const int all = kCells.width * kCells.height;
         int before = 0, most = 0;
         for (const auto& frame : labels) {
@@ -69,7 +69,7 @@ TEST(HistorySeam, AShortIntervalDoesNotFlash) {
     }
 }
 
-TEST(HistorySeam, TheSeamRunsWhereBothLookAlike) {
+TEST(TrackSeam, TheSeamRunsWhereBothLookAlike) {
     auto frames = frames_of(9, 60);
     for (auto& frame : frames) {
         for (int y = 0; y < kCells.height; ++y)
@@ -82,17 +82,17 @@ TEST(HistorySeam, TheSeamRunsWhereBothLookAlike) {
             }
         }
     }
-    const auto labels = cut_histories(frames, {.lambda = 100, .seed = 1});
+    const auto labels = cut_between_tracks(frames, {.lambda = 100, .seed = 1});
     for (int y = 0; y < kCells.height; ++y) {
         EXPECT_EQ(labels[3].at(2, y), 0);
         EXPECT_EQ(labels[4].at(9, y), 1);
     }
 }
 
-TEST(HistorySeam, IsTheSameForTheSameSeed) {
+TEST(TrackSeam, IsTheSameForTheSameSeed) {
     const auto frames = frames_of(12, 30);
-    const auto a = cut_histories(frames, {.lambda = 1, .seed = 8});
-    const auto b = cut_histories(frames, {.lambda = 1, .seed = 8});
+    const auto a = cut_between_tracks(frames, {.lambda = 1, .seed = 8});
+    const auto b = cut_between_tracks(frames, {.lambda = 1, .seed = 8});
     for (std::size_t t = 0; t < a.size(); ++t)
         EXPECT_TRUE(std::equal(a[t].data(), a[t].data() + a[t].size_bytes(), b[t].data()));
 }
@@ -108,25 +108,25 @@ LatticeField constant(Vec2 d) {
 
 TEST(SpreadDisagreement, SmallOnesSlideLargeOnesStay) {
     const Matte all(64, 48, 255);
-    const HistoryLayers small =
+    const TrackLayers small =
         spread_disagreement(constant({1, 0}), constant({3, 0}), 0.25f, 2.0f, all);
     EXPECT_FALSE(small.apart);
     EXPECT_EQ(small.before.at({20, 20}), (Vec2{1.5f, 0}));
     EXPECT_EQ(small.after.at({20, 20}), (Vec2{1.5f, 0}));
 
-    const HistoryLayers large =
+    const TrackLayers large =
         spread_disagreement(constant({1, 0}), constant({9, 0}), 0.25f, 2.0f, all);
     EXPECT_TRUE(large.apart);
     EXPECT_EQ(large.before.at({20, 20}), (Vec2{1, 0}));
     EXPECT_EQ(large.after.at({20, 20}), (Vec2{9, 0}));
 
-    const HistoryLayers unseen =
+    const TrackLayers unseen =
         spread_disagreement(constant({1, 0}), constant({9, 0}), 0.25f, 2.0f, Matte(64, 48));
     EXPECT_FALSE(unseen.apart) << "what the region does not show does not matter";
 }
 
-TEST(HistorySeam, SharesAreWholeButBesideTheSeam) {
-    HistorySeam seam;
+TEST(TrackSeam, SharesAreWholeButBesideTheSeam) {
+    TrackSeam seam;
     seam.first = 10;
     seam.last = 12;
     seam.cell_px = 4;

@@ -1,4 +1,4 @@
-#include "engine/pipeline/history_seams.h"
+#include "engine/pipeline/track_seams.h"
 
 #include <gtest/gtest.h>
 
@@ -32,24 +32,24 @@ struct Release {
         for (int f = first; f <= last; ++f) {
             EXPECT_TRUE(store.put({0, f, AnalysisKind::kCoords}, relaxed));
             EXPECT_TRUE(
-                store.put({0, f, AnalysisKind::kHistoryBefore}, backwards ? relaxed : stretched));
+                store.put({0, f, AnalysisKind::kTrackBefore}, backwards ? relaxed : stretched));
             EXPECT_TRUE(
-                store.put({0, f, AnalysisKind::kHistoryAfter}, backwards ? stretched : relaxed));
+                store.put({0, f, AnalysisKind::kTrackAfter}, backwards ? stretched : relaxed));
         }
     }
-    [[nodiscard]] std::vector<HistorySeam> seams(int reference, int first, int last) const {
+    [[nodiscard]] std::vector<TrackSeam> seams(int reference, int first, int last) const {
         RegionPlan region = make_region(sample_texture());
         region.reference_frames = {reference};
         ShotPlan plan = make_plan(region, first, last);
         plan.display_from_working = color("linear", "srgb");
-        auto made = make_history_seams(shot, plan, store, 0, plane);
+        auto made = make_track_seams(shot, plan, store, 0, plane);
         EXPECT_TRUE(made);
-        return made ? *made : std::vector<HistorySeam>();
+        return made ? *made : std::vector<TrackSeam>();
     }
 };
 
-// Of the region's middle, how much shows the history after on a frame.
-float shown_after(const HistorySeam& seam, int frame) {
+// Of the region's middle, how much shows the track after on a frame.
+float shown_after(const TrackSeam& seam, int frame) {
     float sum = 0;
     for (int y = 24; y < 88; y += 2) {
         for (int x = 28; x < 132; x += 2)

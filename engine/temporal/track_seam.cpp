@@ -1,4 +1,4 @@
-#include "engine/temporal/history_seam.h"
+#include "engine/temporal/track_seam.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,9 +52,9 @@ ImageF1 smooth_noise(Size size, std::uint64_t seed) {
 }
 
 // The graph: a node for every cell and frame; the track from the reference before is the source.
-class HistoryGraph {
+class TrackCutGraph {
   public:
-    HistoryGraph(const std::vector<HistoryEvidence>& frames, const HistoryCutOptions& options)
+    TrackCutGraph(const std::vector<TrackEvidence>& frames, const TrackCutOptions& options)
         : frames_(frames), options_(options), size_(frames.front().pixels.size()) {
         const auto nodes = static_cast<unsigned>(frames.size()) *
                            static_cast<unsigned>(size_.width * size_.height);
@@ -137,7 +137,7 @@ class HistoryGraph {
             const int x = k % size_.width, y = k / size_.width;
             const bool changes =
                 std::any_of(frames_.begin(), frames_.end(),
-                            [&](const HistoryEvidence& f) { return f.mismatch.at(x, y) > 0; });
+                            [&](const TrackEvidence& f) { return f.mismatch.at(x, y) > 0; });
             if (changes) line.emplace_back(order.at(x, y), k);
         }
         std::sort(line.begin(), line.end());
@@ -175,17 +175,17 @@ class HistoryGraph {
         }
     }
 
-    const std::vector<HistoryEvidence>& frames_;
-    const HistoryCutOptions& options_;
+    const std::vector<TrackEvidence>& frames_;
+    const TrackCutOptions& options_;
     Size size_;
     cv::detail::GCGraph<Weight> graph_;
 };
 
 }  // namespace
 
-HistoryLayers spread_disagreement(const LatticeField& before, const LatticeField& after,
-                                  float weight, float limit_px, ViewU8x1 extent) {
-    HistoryLayers out{before, after, false};
+TrackLayers spread_disagreement(const LatticeField& before, const LatticeField& after, float weight,
+                                float limit_px, ViewU8x1 extent) {
+    TrackLayers out{before, after, false};
     const Size size = before.nodes().size();
     for (int j = 0; j < size.height; ++j) {
         for (int i = 0; i < size.width; ++i) {
@@ -205,13 +205,13 @@ HistoryLayers spread_disagreement(const LatticeField& before, const LatticeField
     return out;
 }
 
-std::vector<Labels> cut_histories(const std::vector<HistoryEvidence>& frames,
-                                  const HistoryCutOptions& options) {
+std::vector<Labels> cut_between_tracks(const std::vector<TrackEvidence>& frames,
+                                       const TrackCutOptions& options) {
     if (frames.empty() || frames.front().pixels.empty()) return {};
-    return HistoryGraph(frames, options).solve();
+    return TrackCutGraph(frames, options).solve();
 }
 
-float HistorySeam::share_after(int frame, Vec2 ref) const {
+float TrackSeam::share_after(int frame, Vec2 ref) const {
     const Labels& labels = after[static_cast<std::size_t>(frame - first - 1)];
     const auto cell = static_cast<float>(cell_px);
     const float x = (ref.x - static_cast<float>(origin.x)) / cell - 0.5f;
