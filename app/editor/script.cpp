@@ -66,7 +66,9 @@ bool ScriptRunner::reached(const std::string& what) const {
                                                [](const FrameMarks& m) { return m.plate; });
     if (what == "mattes") {
         for (const RegionMatteView& matte : v.mattes)
-            if (matte.kind == RegionMatteView::Kind::kLoading) return false;
+            if (matte.kind == RegionMatteView::Kind::kLoading ||
+                matte.kind == RegionMatteView::Kind::kUnreached || matte.outdated)
+                return false;
         return !v.matte_busy;
     }
     if (what == "provisional") return v.stages.provisional && !v.stages.partial;

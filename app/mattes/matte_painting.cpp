@@ -15,6 +15,16 @@ bool is_small(Size size) {
 
 }  // namespace
 
+ChangedMatte paint_stroke(const MattePtr& before, const Brush& brush,
+                          const std::vector<PenPoint>& points) {
+    auto matte = std::make_shared<Matte>(*before);
+    Stroke stroke(before, brush);
+    for (const PenPoint& point : points)
+        (void)stroke.move_to(point.at, point.pressure, *matte);
+    if (stroke.touched().empty()) return {};
+    return {std::move(matte), stroke.covered()};
+}
+
 MattePainting::Current::Current() = default;
 
 MattePainting::Copy MattePainting::copy_of(const Key& key) {
@@ -36,20 +46,29 @@ void MattePainting::prepare(const MattePtr& before, Size size) {
     (void)copier_.ask(key, [key](const CancelToken&) { return std::optional(copy_of(key)); });
 }
 
-void MattePainting::begin(const MattePlace& place, const MattePtr& before, Size size,
-                          const Brush& brush) {
+void MattePainting::begin(const MattePlace& place, Size size, const Brush& brush) {
     stroke_.emplace();
     stroke_->place = place;
-    stroke_->key = {before, size, copies_++};
+    stroke_->size = size;
     stroke_->brush = brush;
+}
+
+void MattePainting::begin_on(const MattePtr& before) {
+    stroke_->key = {before, stroke_->size, copies_++};
     stroke_->version = next_picture_id();
-    stroke_->changed = rect_of(size);
+    stroke_->changed = rect_of(stroke_->size);
     update();
 }
 
+std::optional<MattePainting::Waiting> MattePainting::take_waiting() {
+    if (!waits()) return std::nullopt;
+    Current waiting = std::move(*std::exchange(stroke_, std::nullopt));
+    return Waiting{waiting.place, waiting.size, waiting.brush, std::move(waiting.waiting)};
+}
+
 void MattePainting::update() {
-    if (!stroke_ || stroke_->stroke) return;
-    const auto made = copy(stroke_->key);
+    if (!stroke_ || !stroke_->key || stroke_->stroke) return;
+    const auto made = copy(*stroke_->key);
     if (!made) return;
     stroke_->before = made->before;
     stroke_->canvas = made->pixels;
@@ -74,7 +93,7 @@ void MattePainting::move_to(Vec2 at, float pressure) {
 }
 
 std::optional<MattePainting::Finished> MattePainting::end() {
-    if (!stroke_) return std::nullopt;
+    if (!stroke_ || !stroke_->key) return std::nullopt;
     while (!stroke_->stroke && !stroke_->waiting.empty()) {
         update();
         std::this_thread::yield();
@@ -86,8 +105,9 @@ std::optional<MattePainting::Finished> MattePainting::end() {
 }
 
 std::optional<MattePainting::Shown> MattePainting::at(const MattePlace& place) const {
-    if (!stroke_ || !(stroke_->place == place)) return std::nullopt;
-    const Matte* const pixels = stroke_->canvas ? stroke_->canvas.get() : stroke_->key.before.get();
+    if (!stroke_ || !stroke_->key || !(stroke_->place == place)) return std::nullopt;
+    const Matte* const pixels =
+        stroke_->canvas ? stroke_->canvas.get() : stroke_->key->before.get();
     Shown out;
     if (pixels) out.pixels = pixels->view();
     out.version = stroke_->version;

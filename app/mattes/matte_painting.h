@@ -20,16 +20,45 @@ struct MattePlace {
     bool operator==(const MattePlace&) const = default;
 };
 
+/// A point of a stroke.
+struct PenPoint {
+    Vec2 at;
+    float pressure = 1;
+};
+
+/// A matte that was changed, and where: 255, else 0.
+struct ChangedMatte {
+    MattePtr matte;
+    Matte where;
+};
+/// A whole stroke on a matte, as MattePainting paints it; null if it changed nothing. Pure.
+[[nodiscard]] ChangedMatte paint_stroke(const MattePtr& before, const Brush& brush,
+                                        const std::vector<PenPoint>& points);
+
 /// A stroke changes a copy of its matte. The copy is made in the background before the stroke,
-/// except for small mattes; points that arrive earlier are queued. Belongs to one thread.
+/// except for small mattes; points that arrive earlier are queued, also while the matte itself is
+/// not known. Belongs to one thread.
 class MattePainting {
   public:
     /// Sets the matte for the next stroke; null: an empty one of `size`. Call it in every frame in
     /// which a stroke could begin.
     void prepare(const MattePtr& before, Size size);
 
-    /// Begins a stroke and discards an unfinished one.
-    void begin(const MattePlace& place, const MattePtr& before, Size size, const Brush& brush);
+    /// Begins a stroke, which waits for begin_on(), and discards an unfinished one.
+    void begin(const MattePlace& place, Size size, const Brush& brush);
+    /// What the stroke changes; null: an empty matte.
+    void begin_on(const MattePtr& before);
+    /// A stroke waits for begin_on().
+    [[nodiscard]] bool waits() const { return stroke_ && !stroke_->key; }
+    [[nodiscard]] const MattePlace& place() const { return stroke_->place; }  ///< While active().
+    /// Takes a stroke that still waits; it is no longer active.
+    struct Waiting {
+        MattePlace place;
+        Size size;
+        Brush brush;
+        std::vector<PenPoint> points;
+    };
+    [[nodiscard]] std::optional<Waiting> take_waiting();
     /// Adds a point; the first one makes a dot. Does nothing without a stroke.
     void move_to(Vec2 at, float pressure);
     /// Paints queued points once the copy is ready. Call it in every frame.
@@ -68,14 +97,11 @@ class MattePainting {
         int number = 0;  // number of the copy; each copy is painted on once
         bool operator==(const Key&) const = default;
     };
-    struct PenPoint {
-        Vec2 at;
-        float pressure = 1;
-    };
     struct Current {
         Current();  // defined where this class is complete, as its initializers need
         MattePlace place;
-        Key key;
+        Size size;
+        std::optional<Key> key;
         Brush brush;
         MattePtr before;                // null while the copy is made
         std::shared_ptr<Matte> canvas;  // likewise

@@ -22,8 +22,8 @@ void MatteCarrier::carry(const Project& project, const PaintedMattes& painted, i
     for (const auto& [path, matte] : painted)
         key += "\n" + path;
     if (asked_ && asked_->key == key) return;
-    asked_ =
-        std::make_shared<const Asked>(Asked{++serial_, std::move(key), project, painted, frame});
+    asked_ = std::make_shared<const Asked>(
+        Asked{document_.load(), std::move(key), project, painted, frame});
     start();
 }
 
@@ -49,7 +49,7 @@ void MatteCarrier::resume() {
 void MatteCarrier::clear() {
     if (!asked_) return;
     asked_.reset();
-    ++serial_;
+    ++document_;
     (void)worker_.ask({}, [](const CancelToken&) { return std::optional(true); });
 }
 
@@ -68,7 +68,7 @@ void MatteCarrier::work(const Asked& asked, const CancelToken& cancel) {
     std::vector<std::string> warnings;
     const auto store = open_analysis_cache(**shot, cache_, warnings);
     if (!store) return;
-    carried_.put({*shot, *store, asked.serial});
+    carried_.put({*shot, *store, asked.document, asked.project});
     ShotPlan plan = (*shot)->plan;
     plan.frames = (*shot)->plate->frames();
     const PassContext context{*(*shot)->source, plan, cancel, [&](int, double) { ++changes_; },
@@ -78,20 +78,18 @@ void MatteCarrier::work(const Asked& asked, const CancelToken& cancel) {
     ++changes_;
 }
 
-Expected<Matte> MatteCarrier::matte(RegionId region, int layer, int frame) const {
+std::vector<int> MatteCarrier::reached(const WantedMatte& wanted) const {
     const auto carried = carried_.get();
-    const Shot* shot = carried && carried->serial == serial_.load() ? carried->shot.get() : nullptr;
-    for (std::size_t k = 0; shot && k < shot->region_index.size(); ++k) {
-        const Region& of = *shot->project.regions[shot->region_index[k]];
-        const std::optional<int> stored = stored_layer(of, layer);
-        if (of.id != region || !stored) continue;
-        if (auto found = newest_matte(*carried->store, static_cast<int>(k), *stored, frame,
-                                      shot->source->size()))
-            return found;
-        break;
-    }
-    return fail(ErrorCode::kMissingFrames,
-                "The matte has not been propagated to frame " + std::to_string(frame) + " yet.");
+    if (!carried || carried->document != document_.load()) return {};
+    return reached_in(carried->asked, *carried->shot, *carried->store, wanted);
+}
+
+Expected<Matte> MatteCarrier::matte(const WantedMatte& wanted) const {
+    const auto carried = carried_.get();
+    if (carried && carried->document == document_.load())
+        return matte_in(carried->asked, *carried->shot, *carried->store, wanted);
+    return fail(ErrorCode::kMissingFrames, "The matte has not been propagated to frame " +
+                                               std::to_string(wanted.frame) + " yet.");
 }
 
 }  // namespace weft

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/base/latest_worker.h"
 #include "app/cache/analysis_cache.h"
@@ -14,6 +15,8 @@
 #include "app/shot/shot.h"
 
 namespace weft {
+
+struct WantedMatte;
 
 /// Stores the mattes where the analysis of the region looks for them once it has a texture. The
 /// newest call wins. carry(), pause(), resume() and clear() are for one thread and never wait.
@@ -30,9 +33,10 @@ class MatteCarrier {
     void pause();
     void resume();
     void clear();
-    /// A carried matte (`layer` 0) or holdout; between two keyframes at first as it comes from the
-    /// one before. Thread-safe, slow. Error: not carried yet.
-    [[nodiscard]] Expected<Matte> matte(RegionId region, int layer, int frame) const;
+    /// Thread-safe, slow. Error: as Preview::propagated_matte() has it.
+    [[nodiscard]] Expected<Matte> matte(const WantedMatte& wanted) const;
+    /// As Preview has it. Thread-safe, slow.
+    [[nodiscard]] std::vector<int> reached(const WantedMatte& wanted) const;
     /// Increases when mattes may have been carried. Thread-safe.
     [[nodiscard]] std::uint64_t changes() const { return changes_.load(); }
 
@@ -40,10 +44,11 @@ class MatteCarrier {
     struct Carried {
         std::shared_ptr<const Shot> shot;
         std::shared_ptr<AnalysisCache> store;
-        std::uint64_t serial = 0;  // of the Asked
+        std::uint64_t document = 0;
+        Project asked;
     };
     struct Asked {
-        std::uint64_t serial = 0;
+        std::uint64_t document = 0;
         std::string key;
         Project project;
         PaintedMattes painted;
@@ -57,7 +62,7 @@ class MatteCarrier {
     std::shared_ptr<const Asked> asked_;  // null: nothing to carry
     bool paused_ = false;
     std::atomic<std::uint64_t> changes_{0};
-    std::atomic<std::uint64_t> serial_{0};  // of what was asked last: older mattes are not shown
+    std::atomic<std::uint64_t> document_{0};  // how many there were: mattes of others are not shown
     Published<Carried> carried_;
     LatestWorker<std::string, bool> worker_;  // destroyed first
 };

@@ -1,12 +1,15 @@
 #include "app/preview/playback.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace weft {
 
 void Playback::open(std::vector<int> frames) {
     frames_ = std::move(frames);
-    if (!std::binary_search(frames_.begin(), frames_.end(), frame_)) frame_ = frames_.front();
+    if (std::exchange(begins_, false) ||
+        !std::binary_search(frames_.begin(), frames_.end(), frame_))
+        frame_ = frames_.front();
 }
 
 void Playback::close() {
@@ -14,6 +17,7 @@ void Playback::close() {
 }
 
 void Playback::reset() {
+    begins_ = true;
     direction_ = 0;
     mark_in_.reset();
     mark_out_.reset();

@@ -21,7 +21,7 @@ class Playback {
     void open(std::vector<int> frames);
     /// Closes the plate. The playhead's number is kept for the next one.
     void close();
-    /// Stops and clears the in and out points.
+    /// Stops, clears the in and out points, and begins the next plate at its first frame.
     void reset();
 
     [[nodiscard]] const std::vector<int>& frames() const { return frames_; }
@@ -63,7 +63,8 @@ class Playback {
     PlayMode mode_ = PlayMode::kLoop;
     std::optional<int> mark_in_, mark_out_;
     double now_s_ = 0, frame_at_s_ = 0, fps_since_s_ = 0, shown_fps_ = 0;
-    int shown_ = 0;  // frames since fps_since_s_
+    int shown_ = 0;        // frames since fps_since_s_
+    bool begins_ = false;  // the next open() goes to the first frame
 };
 
 }  // namespace weft

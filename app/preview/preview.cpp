@@ -122,17 +122,17 @@ std::uint64_t Preview::changes() const {
     return impl_->changes.load() + impl_->carrier.changes();
 }
 
-Expected<Matte> Preview::propagated_matte(RegionId region, int layer, int frame) const {
-    if (const auto [now, k] = impl_->find_opened(region); now) {
-        const std::optional<int> kept =
-            stored_layer(*now->shot->project.regions[now->shot->region_index[k]], layer);
-        if (kept) {
-            if (auto found = newest_matte(*now->store, static_cast<int>(k), *kept, frame,
-                                          now->shot->source->size()))
-                return found;
-        }
-    }
-    return impl_->carrier.matte(region, layer, frame);
+Expected<Matte> Preview::propagated_matte(const WantedMatte& wanted) const {
+    if (const auto [now, k] = impl_->find_opened(wanted.region); now)
+        if (auto found = matte_in(now->asked, *now->shot, *now->store, wanted)) return found;
+    return impl_->carrier.matte(wanted);
+}
+
+std::vector<int> Preview::reached(const WantedMatte& wanted) const {
+    if (const auto [now, k] = impl_->find_opened(wanted.region); now)
+        if (auto found = reached_in(now->asked, *now->shot, *now->store, wanted); !found.empty())
+            return found;
+    return impl_->carrier.reached(wanted);
 }
 
 Expected<LatticeField> Preview::track(RegionId region, int before, int now) const {

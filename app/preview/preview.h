@@ -158,6 +158,19 @@ struct PreviewView {
     double first_seconds = 0;
 };
 
+/// Which propagated matte is meant.
+struct WantedMatte {
+    RegionId region = 0;
+    int layer = 0;  ///< 0: the region's matte, above: holdouts, below: zones (matte_layer.h).
+    int frame = 0;
+    std::string key;  ///< Its propagation_key(): another document's matte is none.
+    enum class Walk : std::uint8_t {
+        kAll,     ///< Final.
+        kForward  ///< From the keyframe before only, while the walk from the next one is not done.
+    };
+    Walk walk = Walk::kAll;
+};
+
 /// The preview's results at the last successful Preview::try_read().
 struct PreviewReading {
     PreviewView view;
@@ -200,9 +213,12 @@ class Preview {
     bool try_read(int frame, RegionId region, int layer, PreviewReading& reading) const;
     /// Increases with every change that try_read() would report.
     [[nodiscard]] std::uint64_t changes() const;
-    /// Reads a propagated matte (`layer` 0) or holdout. Slow: call it in the background. Error: not
-    /// propagated yet.
-    [[nodiscard]] Expected<Matte> propagated_matte(RegionId region, int layer, int frame) const;
+    /// Slow: call it in the background. Error: not propagated yet, or only in another state of the
+    /// document.
+    [[nodiscard]] Expected<Matte> propagated_matte(const WantedMatte& wanted) const;
+    /// The frames of the plate with that matte, whatever `wanted.frame` is. Slow: call it in the
+    /// background.
+    [[nodiscard]] std::vector<int> reached(const WantedMatte& wanted) const;
     /// The track of the texture, before_from_now, in plate pixels. Slow: call it in the background.
     /// Error: not analysed yet, or the region's mode has no track.
     [[nodiscard]] Expected<LatticeField> track(RegionId region, int before, int now) const;

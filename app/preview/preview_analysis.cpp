@@ -1,6 +1,7 @@
 // The analysis thread of the preview.
 #include "app/base/background.h"
 #include "app/preview/preview_impl.h"
+#include "app/preview/propagation_key.h"
 #include "engine/core/stopwatch.h"
 #include "engine/mask/plate_edge.h"
 #include "engine/pipeline/analyse.h"
@@ -46,18 +47,49 @@ std::optional<int> stored_layer(const Region& region, int layer) {
     return painted;
 }
 
-Expected<Matte> newest_matte(const AnalysisStore& store, int region, int layer, int frame,
-                             Size plate) {
-    AnalysisKey key{region, frame, AnalysisKind::kMatte, layer};
-    auto bytes = store.get(key);
-    key.kind = AnalysisKind::kMatteForward;
-    if (!bytes) bytes = store.get(key);
-    if (!bytes) return tl::unexpected(bytes.error());
-    WEFT_TRY(found, decode_matte(*bytes));
-    const Size size = found.matte.size();
+namespace {
+
+// Where a shot that was opened from `asked` stores that matte; nothing: it is another one.
+std::optional<AnalysisKey> place_of(const Project& asked, const Shot& shot,
+                                    const WantedMatte& wanted) {
+    for (std::size_t k = 0; k < shot.region_index.size(); ++k) {
+        const Region& region = *asked.regions[shot.region_index[k]];
+        if (region.id != wanted.region) continue;
+        const std::optional<int> stored = stored_layer(region, wanted.layer);
+        if (!stored || propagation_key(asked, region, wanted.layer) != wanted.key) break;
+        const auto kind = wanted.walk == WantedMatte::Walk::kAll ? AnalysisKind::kMatte
+                                                                 : AnalysisKind::kMatteForward;
+        return AnalysisKey{static_cast<int>(k), wanted.frame, kind, *stored};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Expected<Matte> matte_in(const Project& asked, const Shot& shot, const AnalysisStore& store,
+                         const WantedMatte& wanted) {
+    const auto place = place_of(asked, shot, wanted);
+    if (!place)
+        return fail(ErrorCode::kMissingFrames, "The matte has not been propagated to frame " +
+                                                   std::to_string(wanted.frame) + " yet.");
+    WEFT_TRY(bytes, store.get(*place));
+    WEFT_TRY(found, decode_matte(bytes));
+    const Size size = found.matte.size(), plate = shot.source->size();
     const Vec2 gain(static_cast<float>(plate.width) / static_cast<float>(size.width),
                     static_cast<float>(plate.height) / static_cast<float>(size.height));
     return enlarged(found.matte, gain, plate);
+}
+
+std::vector<int> reached_in(const Project& asked, const Shot& shot, const AnalysisStore& store,
+                            const WantedMatte& wanted) {
+    auto place = place_of(asked, shot, wanted);
+    std::vector<int> out;
+    if (!place) return out;
+    for (const int frame : shot.plate->frames()) {
+        place->frame = frame;
+        if (store.has(*place)) out.push_back(frame);
+    }
+    return out;
 }
 
 // What the artist has just painted is looked at before its texture is.

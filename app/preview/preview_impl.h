@@ -37,6 +37,7 @@ struct OpenedShot {
     std::shared_ptr<AnalysisCache> store;
     std::string pixels, analysis;  ///< Keys of the opened project.
     std::uint64_t document = 0;    ///< As PreviewRequest::document.
+    Project asked = {};            ///< What it was opened from.
 };
 using OpenedPtr = std::shared_ptr<const OpenedShot>;
 
@@ -63,10 +64,14 @@ struct KeptProvisional {
 /// holdouts are counted among themselves. Nothing: not stored.
 [[nodiscard]] std::optional<int> stored_layer(const Region& region, int layer);
 
-/// A propagated matte as far as it is known, of size `plate`: final, or carried from the keyframe
-/// before. Error: neither is there.
-[[nodiscard]] Expected<Matte> newest_matte(const AnalysisStore& store, int region, int layer,
-                                           int frame, Size plate);
+/// A propagated matte of a shot that was opened from `asked`. Error: it is not in the store, or it
+/// is that of another state of the document.
+[[nodiscard]] Expected<Matte> matte_in(const Project& asked, const Shot& shot,
+                                       const AnalysisStore& store, const WantedMatte& wanted);
+
+/// The frames with that matte; none if it is that of another state of the document.
+[[nodiscard]] std::vector<int> reached_in(const Project& asked, const Shot& shot,
+                                          const AnalysisStore& store, const WantedMatte& wanted);
 
 /// The track of a region's texture, before_from_now, in plate pixels. Error: not analysed, or the
 /// region's mode has no track.

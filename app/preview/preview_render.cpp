@@ -193,7 +193,7 @@ Expected<std::shared_ptr<const Shot>> Preview::Impl::open(const Project& project
 bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& pixels) {
     set_state(PreviewView::State::kOpening);
     auto fresh = std::make_shared<OpenedShot>(
-        OpenedShot{nullptr, nullptr, pixels, analysis_key(now.project), now.document});
+        OpenedShot{nullptr, nullptr, pixels, analysis_key(now.project), now.document, now.project});
     std::vector<std::string> warnings;
     auto shot = open(now.project, now.painted);
     Expected<std::shared_ptr<AnalysisCache>> store{nullptr};

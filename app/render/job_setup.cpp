@@ -13,6 +13,7 @@
 #include "app/shot/motion_check.h"
 #include "engine/core/setting.h"
 #include "engine/media/movies.h"
+#include "engine/pipeline/form_drawn.h"
 
 namespace weft {
 namespace {
@@ -234,6 +235,8 @@ Expected<JobSetup> set_up_job(const JobSpec& spec, const std::vector<int>& leave
     WEFT_CHECK_OK(check_settings(spec, setup));
     WEFT_CHECK_OK(know_inputs(spec, leave_out, setup));
     WEFT_CHECK_OK(choose_format(spec, setup));
+    if (spec.stage != JobStage::kEncode)
+        WEFT_CHECK_OK(check_drawn_forms(*setup.shot->source, setup.plan));
     WEFT_CHECK_OK(check_existing(spec, setup, folders));
     if (spec.stage != JobStage::kEncode && !setup.plan.frames.empty()) {
         WEFT_TRY(warnings, check_motion(*setup.shot));

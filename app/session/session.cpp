@@ -15,11 +15,11 @@ Session::Session(SessionOptions options, EditorSettings* settings)
       document_((std::filesystem::path(options_.state_folder) / "recovery").string(),
                 [this] { shelf_.flush(); }, *this, notices_),
       tasks_(document_),
-      files_({document_, tasks_, notices_, shelf_, [this] { end_stroke(); },
+      files_({document_, tasks_, notices_, shelf_, [this] { end_painting(); },
               options_.texture_library}),
       trust_(options_.trust_file, document_, notices_),
       saving_({document_, selection_, files_, trust_, tasks_, notices_, shelf_, settings_,
-               [this] { end_stroke(); }, options_.state_folder}),
+               [this] { end_painting(); }, options_.state_folder}),
       opening_({document_, files_, tasks_, notices_, settings_, options_.assets,
                 options_.state_folder, options_.offer_recovery}),
       plate_(playback_, shutdowns_, options_.plate_budget_bytes),
@@ -27,20 +27,22 @@ Session::Session(SessionOptions options, EditorSettings* settings)
       preview_desk_({preview_, document_, selection_, plate_, playback_, shelf_}),
       strip_({document_, selection_, plate_, playback_, preview_desk_}),
       matte_folder_(document_, options_.state_folder),
-      shown_mattes_({document_, selection_, plate_, playback_, shelf_, preview_, painting_}),
+      propagated_({document_, shelf_, preview_}),
+      shown_mattes_({document_, selection_, plate_, playback_, shelf_, propagated_, painting_}),
       target_({document_, selection_, plate_, playback_, shown_mattes_, notices_}),
-      kept_mattes_({document_, selection_, matte_folder_, shelf_, notices_}),
-      strokes_({document_, playback_, target_, painting_, kept_mattes_, notices_}),
+      kept_mattes_({document_, selection_, matte_folder_, shelf_, propagated_, notices_}),
       changes_({document_, selection_, plate_, target_, kept_mattes_, notices_, shutdowns_,
                 [this] { end_stroke(); }}),
+      strokes_({document_, playback_, target_, painting_, kept_mattes_, changes_, notices_}),
       shapes_({document_, selection_, plate_, playback_, preview_, matte_folder_, kept_mattes_,
                tasks_, notices_}),
       matte_export_({document_, selection_, plate_, playback_, preview_, shelf_, matte_folder_,
-                     tasks_, notices_, [this] { end_stroke(); }}),
+                     tasks_, notices_, [this] { end_painting(); }}),
       cryptomatte_({document_, selection_, plate_, playback_, tasks_, notices_}),
+      form_check_({document_, plate_, preview_desk_, shown_mattes_}),
       textures_({document_, tasks_, notices_, shutdowns_, settings_, options_.texture_library,
                  options_.state_folder}),
-      renders_({document_, plate_, trust_, shelf_, tasks_, notices_, [this] { end_stroke(); },
+      renders_({document_, plate_, trust_, shelf_, tasks_, notices_, [this] { end_painting(); },
                 options_.program, options_.state_folder}),
       measurement_({document_, selection_, plate_, preview_, notices_, shutdowns_}) {
     screens_.look();
@@ -61,7 +63,7 @@ Plate Session::plate() const {
 void Session::document_replaced() {
     preview_desk_.forget();
     painting_.cancel();
-    (void)changes_.abandon();
+    changes_.forget();
     textures_.forget();
     shown_mattes_.forget();
     playback_.reset();
@@ -86,7 +88,7 @@ WriteRule Session::export_rule() const {
 }
 
 void Session::close_cleanly() {
-    end_stroke();
+    end_painting();
     files_.cancel_collect();
     shelf_.flush();
     tasks_.finish(true);
@@ -96,7 +98,7 @@ void Session::close_cleanly() {
 }
 
 void Session::flush() {
-    end_stroke();
+    end_painting();
     shelf_.flush();
     tasks_.finish(true);
     document_.flush_recovery();
@@ -110,7 +112,8 @@ bool Session::busy() const {
 }
 
 std::uint64_t Session::changes() const {
-    return shelf_.changes() + preview_.changes() + renders_.changes() + plate_.changes();
+    return shelf_.changes() + preview_.changes() + renders_.changes() + plate_.changes() +
+           propagated_.changes();
 }
 
 // ---- update() --------------------------------------------------------------------------------
@@ -127,6 +130,7 @@ void Session::advance(double now_s) {
     enter("plate");
     shutdowns_.clear_ended();
     if (plate_.take()) {
+        if (const auto frame = opening_.take_first_frame()) (void)playback_.go_to(*frame);
         preview_desk_.ask();
         document_.touch();
     }
@@ -144,8 +148,9 @@ void Session::advance(double now_s) {
 }
 
 void Session::advance_mattes() {
-    painting_.update();
     changes_.take();
+    strokes_.update();
+    painting_.update();
     // Results from in-memory mattes may now be filed under the names of their files.
     if (kept_mattes_.were_written()) preview_desk_.ask();
 }
@@ -178,6 +183,7 @@ void Session::show(double now_s) {
     enter("preview");
     preview_desk_.read();
     preview_desk_.show(view_);
+    form_check_.show(view_);
     measurement_.show(view_);
     enter("strip");
     shapes_.show(view_);
@@ -201,7 +207,7 @@ void Session::show_answers() {
 
 void Session::show_mattes() {
     view_.painting = painting_.active();
-    view_.matte_busy = changes_.busy();
+    changes_.show(view_);
     if (document_.is_open()) selection_.keep_layer(document_.project());
     shown_mattes_.show(view_);
     const bool still = preview_desk_.read_frame() == playback_.frame();

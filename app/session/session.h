@@ -25,6 +25,7 @@
 #include "app/session/jobs/measurement.h"
 #include "app/session/jobs/renders.h"
 #include "app/session/mattes/cryptomatte_pick.h"
+#include "app/session/mattes/form_check.h"
 #include "app/session/mattes/kept_mattes.h"
 #include "app/session/mattes/matte_changes.h"
 #include "app/session/mattes/matte_export.h"
@@ -32,6 +33,7 @@
 #include "app/session/mattes/matte_shapes.h"
 #include "app/session/mattes/matte_strokes.h"
 #include "app/session/mattes/paint_target.h"
+#include "app/session/mattes/propagated_mattes.h"
 #include "app/session/mattes/shown_mattes.h"
 #include "app/session/session_view.h"
 #include "app/session/textures/texture_choices.h"
@@ -110,6 +112,11 @@ class Session final : private DocumentFollower {
     /// The document's plate, with its absolute path.
     [[nodiscard]] Plate plate() const;
     void end_stroke() { strokes_.end(); }
+    /// What was painted is in the document, also what is still worked out.
+    void end_painting() {
+        end_stroke();
+        changes_.finish();
+    }
 
     SessionOptions options_;
     EditorSettings own_settings_;
@@ -140,14 +147,16 @@ class Session final : private DocumentFollower {
 
     MattePainting painting_;
     MatteFolder matte_folder_;
+    PropagatedMattes propagated_;
     ShownMattes shown_mattes_;
     PaintTarget target_;
     KeptMattes kept_mattes_;
-    MatteStrokes strokes_;
     MatteChanges changes_;
+    MatteStrokes strokes_;
     MatteShapes shapes_;
     MatteExport matte_export_;
     CryptomattePick cryptomatte_;
+    FormCheck form_check_;
 
     TextureChoices textures_;
     Renders renders_;

@@ -22,17 +22,18 @@ struct Session::Actor {
     void operator()(const TryEdit& a) const { s.document_.try_edit(a.edit); }
     void operator()(const TryEdits& a) const { s.document_.try_edits(a.edits); }
     void operator()(const Undo&) const {
+        s.end_stroke();
         // A matte that is still worked out is what was done last.
-        if (s.changes_.abandon()) return;
-        end_all_painting();
-        s.document_.undo();
+        if (!s.changes_.take_back()) s.document_.undo();
     }
     void operator()(const Redo&) const {
-        end_all_painting();
-        s.document_.redo();
+        s.end_stroke();
+        if (!s.changes_.again()) s.document_.redo();
     }
     void operator()(const GoToHistory& a) const {
-        end_all_painting();
+        s.end_stroke();
+        while (s.changes_.take_back()) {
+        }
         s.document_.go_to(a.position);
     }
     void operator()(const NewProject&) const { s.opening_.open_new(); }
@@ -117,7 +118,7 @@ struct Session::Actor {
     }
 
     // ---- mattes ----
-    void operator()(const BeginStroke& a) const { s.strokes_.begin(a, s.changes_.busy()); }
+    void operator()(const BeginStroke& a) const { s.strokes_.begin(a); }
     void operator()(const ContinueStroke& a) const { s.strokes_.go_on(a); }
     void operator()(const EndStroke&) const { s.end_stroke(); }
     void operator()(const FillPolygon& a) const {
@@ -136,9 +137,7 @@ struct Session::Actor {
     void operator()(const FeatherMatte& a) const {
         s.changes_.change([a](const Matte& m) { return feather_matte(m, a.px); }, "Feather matte");
     }
-    void operator()(const ClearMatte&) const {
-        s.changes_.change([](const Matte& m) { return Matte(m.size()); }, "Clear matte");
-    }
+    void operator()(const ClearMatte&) const { s.changes_.clear(); }
     void operator()(const KeyMatteHere&) const {
         s.changes_.change([](const Matte& m) { return m; }, "Add matte keyframe");
     }
@@ -177,7 +176,13 @@ struct Session::Actor {
     void operator()(const ChooseScreen& a) const { s.screens_.choose(a.name); }
 
     // ---- jobs ----
-    void operator()(const SubmitJob& a) const { s.renders_.submit(a); }
+    void operator()(const SubmitJob& a) const {
+        for (const Leaf<Region>& region : s.document_.project().regions)
+            if (const std::string why = s.form_check_.problem(*region);
+                region->enabled && !why.empty())
+                return s.notices_.add(NoticeKind::kError, "Region '" + region->name + "': " + why);
+        s.renders_.submit(a);
+    }
     void operator()(const CommandJob& a) const { s.renders_.command(a); }
     void operator()(const MeasureResult& a) const { s.measurement_.start(a.pattern); }
 
@@ -188,10 +193,6 @@ struct Session::Actor {
         const bool inside = added.index && *added.index < static_cast<int>(regions.size());
         s.selection_.region =
             inside ? regions[static_cast<std::size_t>(*added.index)]->id : regions.back()->id;
-    }
-    void end_all_painting() const {
-        s.end_stroke();
-        (void)s.changes_.abandon();
     }
     void go_to(int frame) const {
         if (s.playback_.go_to(frame)) moved();

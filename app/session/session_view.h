@@ -72,8 +72,17 @@ struct RegionMatteView {
     RegionId region = 0;
     int layer = 0;  ///< As SelectMatteLayer::layer.
     int frame = 0;
-    enum class Kind : std::uint8_t { kNone, kLoading, kPainted, kPropagated, kFile, kFailed };
+    enum class Kind : std::uint8_t {
+        kNone,
+        kLoading,
+        kPainted,
+        kPropagated,
+        kUnreached,  ///< It has not been propagated to the frame yet.
+        kFile,
+        kFailed
+    };
     Kind kind = Kind::kNone;
+    bool outdated = false;      ///< Propagated: what was seen before the last change.
     ViewU8x1 pixels;            ///< Pixels; valid until the next update().
     MattePtr keep;              ///< The matte itself, which painting changes; null while painted.
     MattePtr edged;             ///< With its edge tools, if it has any; `pixels` shows that then.
@@ -164,8 +173,9 @@ struct SessionView {
     bool onion_skin = false;
     /// What is confirmed of the painted layer on the frame; without pixels: nothing.
     RegionMatteView confirmed;
-    int matte_layer = 0;  ///< As SelectMatteLayer::layer.
-    Zone begun_zone;      ///< What a stroke beyond the last zone adds.
+    int matte_layer = 0;       ///< As SelectMatteLayer::layer.
+    std::vector<int> reached;  ///< The frames that have the painted layer's matte, if propagated.
+    Zone begun_zone;           ///< What a stroke beyond the last zone adds.
     bool painting = false, matte_busy = false;
     /// Shape of the selected region on this frame, or the last one before.
     std::optional<RotoShape> shape;
@@ -196,6 +206,8 @@ struct SessionView {
     std::string undo_label, redo_label;
     std::vector<Issue> issues;
     std::map<RegionId, std::string> unready;  ///< Reasons why regions cannot be shown yet.
+    /// Why a render would refuse a drawn form, by region.
+    std::map<RegionId, std::string> form_problems;
 
     std::vector<JobView> jobs;
     std::vector<Notice> notices;

@@ -20,18 +20,27 @@ constexpr double kSide = 960;
 constexpr double kLeastPlaneNearness = 0.02;
 constexpr double kDerivativeStep = 1e-6;  // of the numeric derivatives
 constexpr int kPlaneSteps = 40;
+// Long side over focal length of the lenses that shots are made with: fields of view of 18° to
+// 108°.
+constexpr double kLongestLens = 0.32, kWidestLens = 2.75;
+constexpr double kSkew = 0.26;  // deviation of an angle that was drawn as a right one, radians
 
-// Slopes, tangent, and the direction of `along`: in view space, unit, not yet in the plane.
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+// Slopes, tangent, the direction of `along`: in view space, unit, not yet in the plane; and by how
+// much the angle to `across` is off a right one, radians.
 struct Guess {
     double slope_x = 0, slope_y = 0, tangent = 1;
     glm::dvec3 direction{1, 0, 0};
+    double skew = 0;
 };
 
 class Lines {
   public:
     Lines(const std::vector<PictureLine>& along, const std::vector<PictureLine>& across,
-          Size picture, std::optional<double> tangent)
-        : along_(along), across_(across) {
+          Size picture, std::optional<double> tangent, bool skewed)
+        : along_(along), across_(across), skewed_(skewed) {
         flat_.middle =
             0.5f * Vec2(static_cast<float>(picture.width), static_cast<float>(picture.height));
         flat_.long_side = std::max(picture.width, picture.height);
@@ -68,12 +77,12 @@ class Lines {
     }
 
     // Normal equations; false where the guess is impossible.
-    bool linearise(const Guess& g, Matrix4& matrix, Vector4& right) const {
+    bool linearise(const Guess& g, Matrix5& matrix, Vector5& right) const {
         const Eigen::VectorXd at = errors(g);
         if (at.size() == 0) return false;
-        Eigen::Matrix<double, Eigen::Dynamic, 4> slopes(at.size(), 4);
-        for (int k = 0; k < 4; ++k) {
-            const Eigen::VectorXd moved = errors(stepped(g, kDerivativeStep * Vector4::Unit(k)));
+        Eigen::Matrix<double, Eigen::Dynamic, 5> slopes(at.size(), 5);
+        for (int k = 0; k < 5; ++k) {
+            const Eigen::VectorXd moved = errors(stepped(g, kDerivativeStep * Vector5::Unit(k)));
             if (moved.size() == 0) return false;
             slopes.col(k) = (moved - at) / kDerivativeStep;
         }
@@ -82,12 +91,13 @@ class Lines {
         return true;
     }
 
-    [[nodiscard]] Guess stepped(const Guess& g, const Vector4& step) const {
+    [[nodiscard]] Guess stepped(const Guess& g, const Vector5& step) const {
         Guess out{g.slope_x + step[0], g.slope_y + step[1], std::max(0.02, g.tangent + step[2]),
-                  g.direction};
+                  g.direction, g.skew};
         const glm::dvec3 n = unit(normal(out));
         const glm::dvec3 flat = unit(out.direction - n * glm::dot(n, out.direction));
         out.direction = unit(flat + step[3] * glm::cross(n, flat));
+        out.skew = skewed_ ? g.skew + step[4] : 0;
         return out;
     }
 
@@ -149,8 +159,10 @@ class Lines {
                     if (nearness(g, end) < kLeastPlaneNearness) return {};
         const glm::dvec3 n = unit(normal(g));
         const glm::dvec3 first = unit(g.direction - n * glm::dot(n, g.direction)),
-                         second = glm::cross(n, first);
-        Eigen::VectorXd out(static_cast<Eigen::Index>(along_.size() + across_.size()) + 3);
+                         across = glm::cross(n, first),
+                         // of unit length as far as it matters: only its direction counts
+            second = across + g.skew * first;
+        Eigen::VectorXd out(static_cast<Eigen::Index>(along_.size() + across_.size()) + 4);
         Eigen::Index k = 0;
         for (const PictureLine& line : along_)
             out[k++] = off(line, first, g.tangent) / sigma_;
@@ -159,10 +171,12 @@ class Lines {
         out[k++] = g.slope_x / prior_.slope;
         out[k++] = g.slope_y / prior_.slope;
         out[k++] = (g.tangent - prior_.tangent) / prior_.tangent_deviation;
+        out[k++] = g.skew / kSkew;
         return out;
     }
 
     const std::vector<PictureLine>&along_, &across_;
+    const bool skewed_;
     RigidSurface flat_;
     RigidPrior prior_;
     glm::dvec2 centre_{0};
@@ -172,11 +186,11 @@ class Lines {
 Guess descended(const Lines& lines, Guess at) {
     double before = lines.cost(at), damping = 1e-3;
     for (int k = 0; k < kPlaneSteps && damping < 1e8; ++k) {
-        Matrix4 matrix;
-        Vector4 right;
+        Matrix5 matrix;
+        Vector5 right;
         if (!lines.linearise(at, matrix, right)) return at;
-        const Matrix4 damped =
-            matrix + damping * Matrix4(matrix.diagonal().asDiagonal()) + 1e-9 * Matrix4::Identity();
+        const Matrix5 damped =
+            matrix + damping * Matrix5(matrix.diagonal().asDiagonal()) + 1e-9 * Matrix5::Identity();
         const Guess next = lines.stepped(at, damped.ldlt().solve(right));
         const double after = lines.cost(next);
         if (!(after < before)) {
@@ -192,12 +206,8 @@ Guess descended(const Lines& lines, Guess at) {
     return at;
 }
 
-}  // namespace
-
-PlaneFromLines plane_from_lines(const std::vector<PictureLine>& along,
-                                const std::vector<PictureLine>& across, Size picture,
-                                std::optional<double> tangent) {
-    const Lines lines(along, across, picture, tangent);
+// The most likely guess from all starts.
+Guess best_of(const Lines& lines) {
     Guess best;
     double least = std::numeric_limits<double>::infinity();
     for (const Guess& start : lines.starts()) {
@@ -205,22 +215,39 @@ PlaneFromLines plane_from_lines(const std::vector<PictureLine>& along,
         const double cost = lines.cost(at);
         if (cost < least * (1 - 1e-6)) best = at, least = cost;
     }
+    return best;
+}
+
+PlaneFromLines plane_of(const Lines& lines, const Guess& best) {
     PlaneFromLines out{lines.surface(best), degrees_of_cosine(lines.cosine(best)), 0};
-    Matrix4 matrix;
-    Vector4 right;
-    if (lines.linearise(best, matrix, right)) {
-        Vector4 slope;
-        for (int k = 0; k < 4; ++k) {
-            constexpr double kWide = 1e-4;
-            const auto tilt = [&](double by) {
-                return degrees_of_cosine(lines.cosine(lines.stepped(best, by * Vector4::Unit(k))));
-            };
-            slope[k] = (tilt(kWide) - tilt(-kWide)) / (2 * kWide);
-        }
-        const Vector4 solved = (matrix + 1e-9 * Matrix4::Identity()).ldlt().solve(slope);
-        out.tilt_error_deg = std::sqrt(std::max(0.0, slope.dot(solved)));
+    Matrix5 matrix;
+    Vector5 right;
+    if (!lines.linearise(best, matrix, right)) return out;
+    Vector5 slope;
+    for (int k = 0; k < 5; ++k) {
+        constexpr double kWide = 1e-4;
+        const auto tilt = [&](double by) {
+            return degrees_of_cosine(lines.cosine(lines.stepped(best, by * Vector5::Unit(k))));
+        };
+        slope[k] = (tilt(kWide) - tilt(-kWide)) / (2 * kWide);
     }
+    const Vector5 solved = (matrix + 1e-9 * Matrix5::Identity()).ldlt().solve(slope);
+    out.tilt_error_deg = std::sqrt(std::max(0.0, slope.dot(solved)));
     return out;
+}
+
+}  // namespace
+
+PlaneFromLines plane_from_lines(const std::vector<PictureLine>& along,
+                                const std::vector<PictureLine>& across, Size picture,
+                                std::optional<double> tangent) {
+    const Lines upright(along, across, picture, tangent, false);
+    const Guess found = best_of(upright);
+    if (found.tangent >= kLongestLens && found.tangent <= kWidestLens)
+        return plane_of(upright, found);
+    // No lens shows these lines at right angles.
+    const Lines skewed(along, across, picture, tangent, true);
+    return plane_of(skewed, best_of(skewed));
 }
 
 }  // namespace weft

@@ -22,7 +22,9 @@ struct PlaneFromLines {
 /// point, as drawn by hand to a pixel. Before there is evidence a plane faces the camera, and
 /// fields of view are as they are common; so two lines alone give the plane with the farthest
 /// horizon through their vanishing point: a floor for lines that run away from below. `tangent`:
-/// long side over focal length, where it is known. Deterministic everywhere; thread-safe.
+/// long side over focal length, where it is known. Lines that would be at right angles only for a
+/// lens that nobody uses need not be: their angle is then as likely as it is drawn. Deterministic
+/// everywhere; thread-safe.
 [[nodiscard]] PlaneFromLines plane_from_lines(const std::vector<PictureLine>& along,
                                               const std::vector<PictureLine>& across, Size picture,
                                               std::optional<double> tangent);

@@ -5,44 +5,15 @@
 #include <string>
 
 #include "engine/core/setting.h"
-#include "engine/form/drawn_surface.h"
+#include "engine/form/drawn_form.h"
 #include "engine/form/flatten.h"
 #include "engine/form/form_level.h"
 #include "engine/form/form_relief.h"
 #include "engine/mask/matte_box.h"
+#include "engine/pipeline/plate_views.h"
 
 namespace weft {
 namespace {
-
-constexpr int kAlong = 17;  // places of a stroke that are looked at
-
-bool shows(const Matte& matte, glm::dvec2 place) {
-    return place.x >= 0 && place.y >= 0 && place.x < matte.width() && place.y < matte.height() &&
-           matte.row(static_cast<int>(place.y))[static_cast<int>(place.x)] >= 128;
-}
-
-Status check_on_region(const FormGuide& stroke, const Matte& visible) {
-    for (std::size_t k = 0; k < stroke.numbers.size(); k += 4) {
-        int inside = 0;
-        for (int i = 0; i < kAlong; ++i) {
-            const double t = static_cast<double>(i) / (kAlong - 1);
-            inside += shows(visible, (1 - t) * stroke.place(k) + t * stroke.place(k + 2)) ? 1 : 0;
-        }
-        if (inside == 0)
-            return fail(ErrorCode::kUsage,
-                        "A " + std::string(info_of(stroke.kind).name) +
-                            " stroke lies outside of the region on its reference frame.",
-                        "Draw it on the surface" + by({{setting::kFormStrokes}}) + ".");
-    }
-    return {};
-}
-
-Expected<DrawnSurface> surface_of(const RegionPlan& region, Size plate) {
-    const DrawnCamera camera{plate, region.form_fov_deg};
-    for (const FormGuide& guide : region.form_guides)
-        if (is_shape(guide.kind)) return drawn_surface(guide, camera);
-    return drawn_plane(region.form_guides, camera);
-}
 
 // Adds the surface at the pixels of the matte that show it.
 void add_surface(MetricField& field, const DrawnSurface& surface, const Matte& visible) {
@@ -71,57 +42,59 @@ Recti domain_of(const Recti& box, Size plate, bool plane) {
 
 Expected<FormMap> form_from_drawing(const FormEvidence& evidence, Size plate,
                                     const RegionPlan& region) {
-    for (const FormGuide& guide : region.form_guides)
-        if (guide.kind == FormGuideKind::kParallel)
-            WEFT_CHECK_OK(check_on_region(guide, evidence.visible));
-    auto surface = surface_of(region, plate);
-    if (!surface) {
-        Error error = std::move(surface).error();
-        std::string& last = error.remedy.empty() ? error.message : error.remedy;
-        last += by({{setting::kFormShape}, {setting::kFormStrokes}}) + ".";
-        return tl::unexpected(std::move(error));
-    }
+    const DrawnCamera camera{plate, region.form_fov_deg};
+    WEFT_CHECK_OK(check_drawn_form(region.form_guides, camera, evidence.visible));
+    WEFT_TRY(surface, surface_of_guides(region.form_guides, camera));
     const Recti box = matte_box(evidence.visible);
-    if (box.empty()) {
-        return fail(
-            ErrorCode::kUsage,
-            "The region's matte is empty on its reference frame, so a shape has nothing to lie on.",
-            "Choose another reference frame" + by({{setting::kReferenceFrame}}) + ".");
-    }
-    MetricField field = field_over(plate, domain_of(box, plate, surface->is_plane()));
-    add_surface(field, *surface, evidence.visible);
+    MetricField field = field_over(plate, domain_of(box, plate, surface.is_plane()));
+    add_surface(field, surface, evidence.visible);
     MetricField::Beyond beyond;
-    if (surface->is_plane()) beyond = [&](Vec2 place) { return surface->metric(place); };
-    if (!field.finish(beyond)) {
+    if (surface.is_plane()) beyond = [&](Vec2 place) { return surface.metric(place); };
+    if (!field.finish(beyond))
         return fail(ErrorCode::kUsage,
-                    "The shape does not lie on the region on its reference frame.",
+                    "The region shows too little of the shape on its reference frame.",
                     "Draw it over the surface" + by({{setting::kFormShape}}) + ".");
-    }
     FormMap out = flat_from_reference(field);
     out.finding = {FormFinding::Source::kShape,
-                   surface->is_plane(),
+                   surface.is_plane(),
                    1,
                    1.0f,
-                   static_cast<float>(surface->tilt_deg),
-                   static_cast<float>(surface->tilt_error_deg),
-                   static_cast<float>(surface->fov_deg)};
-    add_relief(out, field, surface->fov_deg, plate, surface->is_plane());
+                   static_cast<float>(surface.tilt_deg),
+                   static_cast<float>(surface.tilt_error_deg),
+                   static_cast<float>(surface.fov_deg)};
+    add_relief(out, field, surface.fov_deg, plate, surface.is_plane());
     return out;
 }
 
 Status level_form(const FormEvidence& evidence, const RegionPlan& region, FormMap& form) {
     if (form.finding.source == FormFinding::Source::kNone) return {};
-    bool any = false;
-    for (const FormGuide& guide : region.form_guides) {
-        if (guide.kind != FormGuideKind::kLevel) continue;
-        WEFT_CHECK_OK(check_on_region(guide, evidence.visible));
-        any = true;
-    }
-    if (!any) return {};
+    const auto is_level = [](const FormGuide& guide) {
+        return guide.kind == FormGuideKind::kLevel;
+    };
+    if (std::none_of(region.form_guides.begin(), region.form_guides.end(), is_level)) return {};
+    WEFT_CHECK_OK(check_strokes(region.form_guides, FormGuideKind::kLevel, evidence.visible));
     const Recti box = matte_box(evidence.visible);
     turn_level(
         form, region.form_guides,
         0.5f * Vec2(static_cast<float>(box.x0 + box.x1), static_cast<float>(box.y0 + box.y1)));
+    return {};
+}
+
+Status check_drawn_forms(const ShotSource& source, const ShotPlan& plan) {
+    for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k) {
+        const RegionPlan& region = plan.regions[static_cast<std::size_t>(k)];
+        if (region.form_from != RegionPlan::FormFrom::kShape) continue;
+        const int frame = region.reference_frames.front();
+        const bool painted = region.propagated();
+        if (painted &&
+            !std::binary_search(region.matte_keys.begin(), region.matte_keys.end(), frame))
+            continue;
+        WEFT_TRY(extent, painted ? source.matte_key(k, frame) : source.matte(k, frame));
+        WEFT_TRY(given, source.holdout(k, frame));
+        const Matte visible = given ? without_holdout(extent, *given) : std::move(extent);
+        WEFT_CHECK_OK(
+            check_drawn_form(region.form_guides, {source.size(), region.form_fov_deg}, visible));
+    }
     return {};
 }
 

@@ -53,6 +53,17 @@ TEST_F(FormCommand, JsonAndTheReportOfARenderSayTheSame) {
     EXPECT_EQ(Json::parse(rendered.out)["forms"], found["forms"]);
 }
 
+// All that a render would refuse of a shape is known before the analysis.
+TEST_F(FormCommand, AShapeBesideItsRegionIsRefusedBeforeTheAnalysis) {
+    make_shot(3);
+    const Outcome outcome =
+        run_replace({"--progress", "plain", "--form-shape", "ball:2,2,2", "--cache", "private"});
+    expect_failure(outcome, 2, {"does not lie on the region", "--form-shape"});
+    EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("analys")));
+    EXPECT_FALSE(fs::exists(in("out/0001.png")));
+    EXPECT_TRUE(!fs::exists(in("private")) || fs::is_empty(in("private")));
+}
+
 TEST_F(FormCommand, TakesAProject) {
     make_shot(3);
     expect_success(run({"new", "shot.weft", "--plate", "frames/####.png"}));

@@ -52,7 +52,8 @@ TEST(MattePainting, TheCallingThreadCopiesNoLargeMatte) {
     MattePainting painting;
     painting.prepare(before, size);
     const double begun = thread_ms();
-    painting.begin(kPlace, before, size, pen());
+    painting.begin(kPlace, size, pen());
+    painting.begin_on(before);
     for (const Vec2 at : kWay)
         painting.move_to(at, 1);
     const double painted = thread_ms() - begun;
@@ -72,7 +73,8 @@ TEST(MattePainting, EqualsAStrokeThroughTheSamePoints) {
         for (const bool prepared : {true, false}) {
             MattePainting painting;
             if (prepared) painting.prepare(before, size);
-            painting.begin(kPlace, before, size, pen());
+            painting.begin(kPlace, size, pen());
+            painting.begin_on(before);
             for (const Vec2 at : kWay)
                 painting.move_to(at, 1);
             const auto done = painting.end();
@@ -88,7 +90,8 @@ TEST(MattePainting, AStrokeWithoutAMatteBeginsOnAnEmptyOne) {
     const Size size{800, 600};
     MattePainting painting;
     painting.prepare(nullptr, size);
-    painting.begin(kPlace, nullptr, size, pen());
+    painting.begin(kPlace, size, pen());
+    painting.begin_on(nullptr);
     for (const Vec2 at : kWay)
         painting.move_to(at, 1);
     const auto done = painting.end();
@@ -103,7 +106,8 @@ TEST(MattePainting, TwoStrokesOnOneMatteShareNothing) {
     MattePainting painting;
     const auto stroke = [&](Vec2 at) {
         painting.prepare(before, size);
-        painting.begin(kPlace, before, size, pen());
+        painting.begin(kPlace, size, pen());
+        painting.begin_on(before);
         painting.move_to(at, 1);
         return painting.end()->matte;
     };
@@ -118,7 +122,8 @@ TEST(MattePainting, ShowsWhatIsPaintedAndWhere) {
     MattePainting painting;
     EXPECT_FALSE(painting.at(kPlace));
     painting.prepare(before, size);
-    painting.begin(kPlace, before, size, pen());
+    painting.begin(kPlace, size, pen());
+    painting.begin_on(before);
     const auto begun = painting.at(kPlace);
     ASSERT_TRUE(begun);
     EXPECT_EQ(begun->changed, rect_of(size)) << "it is another texture's first version";
@@ -139,10 +144,12 @@ TEST(MattePainting, WithoutAPointNothingIsFinished) {
     const Size size{700, 500};
     MattePainting painting;
     EXPECT_FALSE(painting.end());
-    painting.begin(kPlace, nullptr, size, pen());
+    painting.begin(kPlace, size, pen());
+    painting.begin_on(nullptr);
     EXPECT_TRUE(painting.active());
     EXPECT_FALSE(painting.end());
-    painting.begin(kPlace, nullptr, size, pen());
+    painting.begin(kPlace, size, pen());
+    painting.begin_on(nullptr);
     painting.move_to({50, 50}, 1);
     painting.cancel();
     EXPECT_FALSE(painting.active());

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <thread>
 
+#include "app/preview/preview.h"
+#include "app/preview/propagation_key.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 #include "engine/pipeline/matte_pass.h"
@@ -55,10 +57,13 @@ class MatteCarrierTest : public testing::Test {
                 std::fill_n(out.pixel(x, y), 3, static_cast<float>(code) / 255.0f);
         return out;
     }
+    [[nodiscard]] WantedMatte wanted(int frame) const {
+        return {1, 0, frame, propagation_key(project_, *project_.regions[0], 0)};
+    }
     bool wait_for(int frame, std::chrono::milliseconds patience = std::chrono::minutes(1)) const {
         const auto end = std::chrono::steady_clock::now() + patience;
         while (std::chrono::steady_clock::now() < end) {
-            if (const auto matte = carrier_->matte(1, 0, frame))
+            if (const auto matte = carrier_->matte(wanted(frame)))
                 return matte->at(44, 32) > 200 && matte->at(4, 4) == 0;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
@@ -130,6 +135,18 @@ TEST_F(MatteCarrierTest, AStrokeChangesWhatLiesBetweenItsNeighboursOnly) {
     EXPECT_EQ(steps_left(), 0) << "undone";
 }
 
+TEST_F(MatteCarrierTest, AMatteOfAnotherStateIsNone) {
+    carrier_->carry(project_, {}, 1);
+    EXPECT_TRUE(wait_for(4));
+    const WantedMatte before = wanted(4);
+    set_keys({1, 2});
+    EXPECT_FALSE(carrier_->matte(wanted(4))) << "asked for before it is carried";
+    EXPECT_TRUE(carrier_->matte(before)) << "until then the one before is there";
+    carrier_->carry(project_, {}, 1);
+    EXPECT_TRUE(wait_for(4));
+    EXPECT_FALSE(carrier_->matte(before));
+}
+
 TEST_F(MatteCarrierTest, PausesAndForgets) {
     carrier_->pause();
     carrier_->carry(project_, {}, 1);
@@ -137,7 +154,7 @@ TEST_F(MatteCarrierTest, PausesAndForgets) {
     carrier_->resume();
     EXPECT_TRUE(wait_for(4));
     carrier_->clear();
-    EXPECT_FALSE(carrier_->matte(1, 0, 4)) << "it may be another matte by now";
+    EXPECT_FALSE(carrier_->matte(wanted(4))) << "it may be another matte by now";
     carrier_->carry(project_, {}, 1);
     EXPECT_TRUE(wait_for(4));
 }

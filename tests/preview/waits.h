@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "app/preview/preview.h"
+#include "app/preview/propagation_key.h"
 #include "app/project/codec/project_file.h"
 
 namespace weft {
@@ -115,7 +116,11 @@ class Waits : public testing::Test {
 
     // A propagated matte of region 0; empty while there is none.
     Matte matte_on(int frame) {
-        auto matte = preview_->propagated_matte(request_.project.regions[0]->id, 0, frame);
+        const Region& region = *request_.project.regions[0];
+        WantedMatte wanted{region.id, 0, frame, propagation_key(request_.project, region, 0)};
+        auto matte = preview_->propagated_matte(wanted);
+        wanted.walk = WantedMatte::Walk::kForward;
+        if (!matte) matte = preview_->propagated_matte(wanted);
         return matte ? std::move(*matte) : Matte();
     }
     // Sends the request and prints when the mattes of these frames are others than before.

@@ -45,6 +45,44 @@ TEST_F(SessionFiles, TitleAndRendersFollowTheSavedName) {
     EXPECT_EQ(view().render_folder, in("two_render_v001"));
 }
 
+TEST_F(SessionFiles, AShotIsNamedByWhatTellsWhichItIs) {
+    for (const auto& [folder, file] : {std::pair{"bedroom", "p."}, std::pair{"sh_020", "sh_plate_"},
+                                       std::pair{"arch/exr", ""}}) {
+        fs::create_directories(in(folder));
+        write_shot("of");
+        for (int k = 1; k <= 4; ++k)
+            fs::rename(in("of/000" + std::to_string(k) + ".png"),
+                       in(folder + ("/" + (file + ("000" + std::to_string(k) + ".png")))));
+    }
+    open();
+    const auto title = [&](const std::string& path) {
+        act(OpenAny{in(path)});
+        update();
+        return view().title;
+    };
+    EXPECT_EQ(title("bedroom/p.####.png"), "bedroom") << "'p' says nothing";
+    EXPECT_EQ(title("bedroom/p.0002.png"), "bedroom");
+    EXPECT_EQ(title("bedroom"), "bedroom");
+    EXPECT_EQ(title("sh_020/sh_plate_####.png"), "sh_plate");
+    EXPECT_EQ(title("sh_020"), "sh_020");
+    EXPECT_EQ(title("arch/exr/####.png"), "arch");
+    fs::copy(in("bedroom"), in("b"), fs::copy_options::recursive);
+    EXPECT_EQ(title("b/p.####.png"), "b");
+}
+
+TEST_F(SessionFiles, AFrameOpensItsSequenceAtThatFrameAndAnotherShotBeginsAtItsFirst) {
+    write_shot("other");
+    open();
+    act(OpenAny{in("frames/0003.png")});
+    ASSERT_TRUE(wait([&] { return view().plate.frames.size() == 4; }));
+    update();
+    EXPECT_EQ(view().frame, 3);
+    act(OpenAny{in("other/####.png")});
+    ASSERT_TRUE(wait([&] { return view().plate.frames.size() == 4 && view().plate_picture; }));
+    update();
+    EXPECT_EQ(view().frame, 1);
+}
+
 TEST_F(SessionFiles, AShotThatIsRecoveredRendersUnderItsName) {
     open();
     const std::string kept = in("state/recovery/recovery-" + std::to_string(getpid()) + ".weft");

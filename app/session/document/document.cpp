@@ -49,6 +49,7 @@ bool Document::keep(Expected<Project> made, std::string label) {
 void Document::commit(Project project, std::string label) {
     tried_.reset();
     history_.push(std::move(project), std::move(label));
+    ++made_;
     changed();
     note_recovery();
 }
@@ -98,6 +99,8 @@ void Document::show(SessionView& view) {
     view.open = open_;
     view.document = id_;
     view.modified = modified();
+    view.undo_label = history_.undo_label();
+    view.redo_label = history_.redo_label();
     if (shown_version_ == version_) return;
     shown_version_ = version_;
     view.project = project();
@@ -105,8 +108,6 @@ void Document::show(SessionView& view) {
     view.title = title();
     view.history = history_.labels();
     view.history_position = history_.position();
-    view.undo_label = history_.undo_label();
-    view.redo_label = history_.redo_label();
     view.issues = validate(project());
     view.unready.clear();
     for (const Leaf<Region>& region : project().regions) {

@@ -79,6 +79,11 @@ class Document {
     bool go_to(std::size_t position) {
         return go([&] { return history_.go_to(position); });
     }
+    /// Number of states that redo() can bring back, and of those that were ever made.
+    [[nodiscard]] std::size_t redos() const {
+        return history_.labels().size() - 1 - history_.position();
+    }
+    [[nodiscard]] std::uint64_t made() const { return made_; }
     /// Makes all who look at version() look again.
     void touch() { ++version_; }
 
@@ -116,7 +121,7 @@ class Document {
     std::optional<ProjectOnDisk> on_disk_;
     History history_{Project{}};
     std::optional<Project> tried_;
-    std::uint64_t id_ = 0, version_ = 1, shown_version_ = 0;
+    std::uint64_t id_ = 0, version_ = 1, shown_version_ = 0, made_ = 0;
     RecoveryWriter recovery_;
 };
 

@@ -15,23 +15,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A display name: the first name, from the file upwards, that is not only a number, a pattern or
-// what every shot calls the folder of its frames.
-std::string shot_name(const std::string& path) {
-    static const std::set<std::string> kCommon{"frames", "frame",  "plate",  "plates", "images",
-                                               "image",  "png",    "exr",    "jpg",    "jpeg",
-                                               "rgb",    "beauty", "footage"};
-    const fs::path whole(path);
-    std::string own = whole.filename().string();
-    for (fs::path at = whole; at.has_relative_path(); at = at.parent_path()) {
-        const std::string stem = at.stem().string();
-        const bool numbered = stem.find_first_not_of("0123456789#%d@") == std::string::npos;
-        if (!numbered && !kCommon.contains(lower_case(stem))) return at.filename().string();
+// What a file is named before its frame number: "shot_plate" of "shot_plate.####.exr".
+std::string name_of_file(const fs::path& file) {
+    std::string name = file.stem().string();
+    constexpr std::string_view kNumber = "0123456789#@%";
+    if (const std::size_t mark = name.find_first_of("#@%"); mark != std::string::npos) {
+        name.erase(mark);
+    } else {
+        const std::size_t last = name.find_last_not_of(kNumber);
+        name.erase(last == std::string::npos ? 0 : last + 1);
     }
-    return own;
+    const std::size_t last = name.find_last_not_of("._- ");
+    name.erase(last == std::string::npos ? 0 : last + 1);
+    return name;
 }
 
-Expected<Project> project_for_plate(const std::string& path) {
+// What every shot calls its frames, or the folder of them.
+bool is_common(const std::string& name) {
+    static const std::set<std::string> kCommon{
+        "frames", "frame", "plate", "plates", "images", "image",   "img", "png",
+        "exr",    "jpg",   "jpeg",  "rgb",    "beauty", "footage", "seq", "sequence"};
+    return kCommon.contains(lower_case(name));
+}
+
+// A display name: the first one, from the file upwards, that tells which shot it is: a file's not
+// if it is but a letter or two before its number, a folder's not if it is only a number.
+std::string shot_name(const std::string& path) {
+    const fs::path whole(path);
+    const bool folder = fs::is_directory(whole);
+    if (!folder && has_movie_extension(path)) return whole.stem().string();
+    constexpr std::size_t kLeast = 3;
+    const std::string own = name_of_file(whole);
+    if (!folder && own.size() >= kLeast && !is_common(own)) return own;
+    for (fs::path at = folder ? whole : whole.parent_path(); at.has_relative_path();
+         at = at.parent_path()) {
+        const std::string name = at.filename().string();
+        if (name.find_first_not_of("0123456789") != std::string::npos && !is_common(name))
+            return name;
+    }
+    return whole.filename().string();
+}
+
+// Of one image of a sequence `frame` is its number.
+Expected<Project> project_for_plate(const std::string& path, std::optional<int>& frame) {
     Project project;
     project.plate.path = path;
     project.name = shot_name(path);
@@ -43,6 +69,7 @@ Expected<Project> project_for_plate(const std::string& path) {
         if (auto sequence = find_sequence(fs::path(path).parent_path().string());
             sequence && sequence->frame_of(path)) {
             project.plate.path = sequence->text();
+            frame = sequence->frame_of(path);
         }
     }
     return project;
@@ -101,7 +128,7 @@ void DocumentOpening::open_demo() {
 void DocumentOpening::open_any(const std::string& given) {
     const std::string path = fs::absolute(given).string();
     if (path.ends_with(".weft")) return open_project(path);
-    auto project = project_for_plate(path);
+    auto project = project_for_plate(path, first_frame_);
     if (!project) {
         use_.notices.add(NoticeKind::kError, project.error().text());
         return;

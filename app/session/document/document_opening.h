@@ -1,7 +1,9 @@
 #pragma once
 // Opening documents: new ones, project files, plates, and those that a crash left behind.
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/base/editor_settings.h"
@@ -36,6 +38,10 @@ class DocumentOpening {
     void open_demo();
     /// A folder, a pattern, a movie, a picture or a project file.
     void open_any(const std::string& path);
+    /// The frame whose file was opened, once; empty: another thing was.
+    [[nodiscard]] std::optional<int> take_first_frame() {
+        return std::exchange(first_frame_, std::nullopt);
+    }
     /// Opens the newest document that a crash left behind, or gives it up.
     void recover(bool accept);
     /// Looks for more of them. Call it in every update.
@@ -50,6 +56,7 @@ class DocumentOpening {
     std::vector<RecoveredProject> recoverable_;
     double first_look_s_ = -1;
     double look_after_s_ = 1;  // since the first look: time of the next one
+    std::optional<int> first_frame_;
 };
 
 }  // namespace weft

@@ -5,18 +5,20 @@
 #include <utility>
 
 #include "app/base/background.h"
+#include "app/preview/propagation_key.h"
 #include "app/session/jobs/measured_result.h"
 #include "app/shot/matte_movies.h"
 
 namespace weft {
 namespace {
 
-std::function<Expected<Matte>(int)> mattes_of(const Region& region, const ShownPlate& plate,
-                                              const Preview& preview) {
+std::function<Expected<Matte>(int)> mattes_of(const Project& absolute, const Region& region,
+                                              const ShownPlate& plate, const Preview& preview) {
     return [&preview, source = *region.matte, plate = plate.reader(), drawn = plate.drawn(),
-            id = region.id](int frame) -> Expected<Matte> {
+            id = region.id,
+            key = propagation_key(absolute, region, 0)](int frame) -> Expected<Matte> {
         if (!source.shape.empty()) return drawn->matte(source.shape, source.select.invert, frame);
-        if (source.files.empty()) return preview.propagated_matte(id, 0, frame);
+        if (source.files.empty()) return preview.propagated_matte({id, 0, frame, key});
         WEFT_TRY(files, matte_files(source.files, *plate));
         return files.read(frame, source.select, plate->size());
     };
@@ -47,7 +49,7 @@ void Measurement::start(const std::string& pattern) {
     MeasuredResult what;
     what.plate = use_.plate.reader();
     what.pattern = pattern;
-    what.matte = mattes_of(*region, use_.plate, use_.preview);
+    what.matte = mattes_of(absolute, *region, use_.plate, use_.preview);
     what.track = [&preview = use_.preview, id = region->id](int before, int now) {
         return preview.track(id, before, now);
     };

@@ -44,12 +44,26 @@ void KeptMattes::keep(MattePtr matte, const MattePlace& place, const std::string
     commit_layer(*target, place.layer, source, label);
 }
 
+void KeptMattes::keep_change(ChangedMatte made, const std::optional<ConfirmedMatte>& part,
+                             const MattePlace& place, const ChangeLabels& labels,
+                             const std::optional<RotoShape>& shape) {
+    if (!made.matte) return;
+    if (place.confirmed)
+        return keep_confirmed({part->matte, std::move(made.matte), part->depends_on}, place,
+                              labels.part);
+    if (part) return keep_part(std::move(made.matte), made.where, *part, place, labels.part);
+    keep(std::move(made.matte), place, labels.whole + " on frame " + std::to_string(place.frame),
+         shape);
+}
+
 void KeptMattes::keep_part(MattePtr matte, const Matte& changed, const ConfirmedMatte& before,
                            const MattePlace& place, const std::string& what) {
     Matte area = *before.area;
     std::transform(area.data(), area.data() + area.size_bytes(), changed.data(), area.data(),
                    [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
-    keep_confirmed({std::move(matte), std::make_shared<const Matte>(std::move(area))}, place, what);
+    keep_confirmed(
+        {std::move(matte), std::make_shared<const Matte>(std::move(area)), before.depends_on},
+        place, what);
 }
 
 void KeptMattes::keep_confirmed(const ConfirmedMatte& now, const MattePlace& place,
@@ -61,6 +75,7 @@ void KeptMattes::keep_confirmed(const ConfirmedMatte& now, const MattePlace& pla
         ConfirmedEdge edge;
         edge.path = write(now.matte, place);
         edge.area = write(now.area, place);
+        use_.propagated.painted_on(resolve_path(use_.document.folder(), edge.path), now.depends_on);
         source.confirmed[place.frame] = edge;
     } else {
         source.confirmed.erase(place.frame);

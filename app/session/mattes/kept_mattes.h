@@ -15,6 +15,12 @@
 
 namespace weft {
 
+/// What the history calls a change: of a whole matte ("Paint wall"), to which the frame is added,
+/// and of a part of one ("Correct "), to which the layer and the frame are.
+struct ChangeLabels {
+    std::string whole, part;
+};
+
 /// Belongs to one thread. Each change is one step of the history.
 class KeptMattes {
   public:
@@ -24,6 +30,7 @@ class KeptMattes {
         const Selection& selection;  ///< The zone that begins with a matte.
         MatteFolder& folder;
         MatteShelf& shelf;
+        PropagatedMattes& propagated;
         Notices& notices;
     };
     explicit KeptMattes(Uses uses) : use_(uses) {}
@@ -31,6 +38,11 @@ class KeptMattes {
     /// `matte` becomes the keyframe of its frame. `shape`: what it was drawn from.
     void keep(MattePtr matte, const MattePlace& place, const std::string& label,
               const std::optional<RotoShape>& shape = {});
+    /// A change of what began with `part`, or of a whole matte without one. Without a matte nothing
+    /// was changed.
+    void keep_change(ChangedMatte made, const std::optional<ConfirmedMatte>& part,
+                     const MattePlace& place, const ChangeLabels& labels,
+                     const std::optional<RotoShape>& shape = {});
     /// `matte` counts where it was `changed`, in addition to what was confirmed `before`. `what`:
     /// begins the label.
     void keep_part(MattePtr matte, const Matte& changed, const ConfirmedMatte& before,

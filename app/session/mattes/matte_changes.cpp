@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "app/base/background.h"
@@ -29,35 +30,46 @@ Matte drawn_lines(const std::vector<std::vector<Vec2>>& lines, Size size) {
     return out;
 }
 
+// `change` of a matte, which counts where it changes it.
+std::function<ChangedMatte(const MattePtr&)> changed_by(std::function<Matte(const Matte&)> change) {
+    return [change = std::move(change)](const MattePtr& before) {
+        auto matte = std::make_shared<const Matte>(change(*before));
+        Matte where = changed_area(*before, *matte);
+        return ChangedMatte{std::move(matte), std::move(where)};
+    };
+}
+
 }  // namespace
 
-bool MatteChanges::may_change() const {
-    return use_.document.is_open() && use_.target.may_paint(busy());
+void MatteChanges::add(Change change) {
+    undone_.clear();
+    const bool replaces = !waiting_.empty() && change.replaces != Replaces::kNothing &&
+                          waiting_.back().replaces == change.replaces &&
+                          waiting_.back().place == change.place;
+    if (replaces) waiting_.pop_back();
+    waiting_.push_back(std::move(change));
+    take();
 }
 
-bool MatteChanges::follows(std::function<void()> again) {
-    if (!changing_) return false;
-    after_ = [this, again = std::move(again), place = use_.target.place()] {
-        if (place == use_.target.place()) again();
-    };
-    return true;
-}
-
-void MatteChanges::change(std::function<Matte(const Matte&)> change, std::string label,
+void MatteChanges::change(std::function<Matte(const Matte&)> change, const std::string& label,
                           bool here_only) {
     use_.end_stroke();
-    if (!may_change()) return;
-    auto before = use_.target.matte();
-    if (!before) return;
-    std::optional<ConfirmedMatte> part;
-    if (use_.target.counts_in_part(here_only) && !(part = use_.target.confirmed())) return;
-    changing_.emplace();
-    changing_->part = std::move(part);
-    changing_->place = use_.target.place();
-    changing_->label = std::move(label);
-    changing_->matte =
-        in_background([change = std::move(change), matte = std::move(*before),
-                       size = use_.target.size()] { return change(matte ? *matte : Matte(size)); });
+    if (!use_.document.is_open() || !use_.target.may_paint()) return;
+    add({use_.target.place(),
+         here_only ? Counts::kPart : Counts::kAll,
+         {label, label + ", "},
+         changed_by(std::move(change))});
+}
+
+void MatteChanges::clear() {
+    use_.end_stroke();
+    if (!use_.document.is_open() || !use_.target.may_paint()) return;
+    Change cleared{use_.target.place(),
+                   Counts::kAll,
+                   {"Clear matte", {}},
+                   changed_by([](const Matte& m) { return Matte(m.size()); })};
+    cleared.from_nothing = true;
+    add(std::move(cleared));
 }
 
 void MatteChanges::flood(const FloodSelect& action) {
@@ -73,19 +85,24 @@ void MatteChanges::flood(const FloodSelect& action) {
 
 void MatteChanges::scribble(const ScribbleSelect& action) {
     const PicturePtr picture = use_.plate.picture();
-    if (!picture || action.keep.empty() || follows([this, action] { scribble(action); })) return;
-    change(
-        [action, picture](const Matte& before) {
-            return segment_scribbles(before, shrink(*picture, kLongestSide),
-                                     drawn_lines(action.keep, before.size()),
-                                     drawn_lines(action.drop, before.size()));
-        },
-        "Scribble", action.here_only);
+    use_.end_stroke();
+    if (!picture || action.keep.empty() || !use_.document.is_open() || !use_.target.may_paint())
+        return;
+    Change change{use_.target.place(),
+                  action.here_only ? Counts::kPart : Counts::kAll,
+                  {"Scribble", "Scribble, "},
+                  changed_by([action, picture](const Matte& before) {
+                      return segment_scribbles(before, shrink(*picture, kLongestSide),
+                                               drawn_lines(action.keep, before.size()),
+                                               drawn_lines(action.drop, before.size()));
+                  })};
+    change.replaces = Replaces::kScribble;
+    add(std::move(change));
 }
 
 void MatteChanges::set_shape(const RotoShape& shape) {
     constexpr std::size_t kLeast = 3;
-    if (shape.points.size() < kLeast || follows([this, shape] { set_shape(shape); })) return;
+    if (shape.points.size() < kLeast) return;
     use_.end_stroke();
     const MattePlace place = use_.target.place();
     const Region* region = use_.target.region();
@@ -98,13 +115,21 @@ void MatteChanges::set_shape(const RotoShape& shape) {
         return use_.kept.commit_layer(*region, place.layer, matte,
                                       "Shape on frame " + std::to_string(place.frame));
     }
-    if (!may_change()) return;
-    changing_.emplace();
-    changing_->place = place;
-    changing_->label = "Shape";
-    changing_->shape = shape;
-    changing_->matte =
-        in_background([shape, size = use_.target.size()] { return matte_of_shape(shape, size); });
+    if (!use_.document.is_open() || !use_.target.may_paint()) return;
+    Change change{place,
+                  Counts::kAll,
+                  {"Shape", {}},
+                  changed_by([shape](const Matte& m) { return matte_of_shape(shape, m.size()); }),
+                  shape,
+                  true,
+                  Replaces::kShape};
+    add(std::move(change));
+}
+
+void MatteChanges::paint(const MattePainting::Waiting& stroke, Counts counts, ChangeLabels labels) {
+    add({stroke.place, counts, std::move(labels), [stroke](const MattePtr& before) {
+             return paint_stroke(before, stroke.brush, stroke.points);
+         }});
 }
 
 void MatteChanges::paint_instead() {
@@ -120,28 +145,95 @@ void MatteChanges::paint_instead() {
     use_.kept.keep_instead(shown.keep, use_.target.place());
 }
 
-bool MatteChanges::abandon() {
-    const bool any = busy();
-    if (any) use_.shutdowns.end(std::move(changing_->matte));
-    changing_.reset();
-    after_ = nullptr;
-    return any;
+bool MatteChanges::start() {
+    Change& next = waiting_.front();
+    PaintBase base{PaintBase::State::kReady, {}, {}};
+    if (!next.from_nothing) base = use_.target.base(next.place, next.counts);
+    if (base.state == PaintBase::State::kReading) return false;
+    Running begun{std::move(next), {}, std::move(base.part)};
+    waiting_.pop_front();
+    if (base.state != PaintBase::State::kReady) {
+        use_.target.refuse(base, begun.change.place);
+        return true;
+    }
+    if (!base.before) base.before = std::make_shared<const Matte>(use_.target.size());
+    begun.made = in_background(
+        [make = begun.change.make, before = std::move(base.before)] { return make(before); });
+    running_ = std::move(begun);
+    return true;
+}
+
+void MatteChanges::keep(Running done) {
+    const bool undone =
+        !undone_.empty() && undone_at_ == Undone{use_.document.made(), use_.document.redos()};
+    use_.kept.keep_change(done.made.get(), done.part, done.change.place, done.change.labels,
+                          done.change.shape);
+    if (undone) note_undone();
 }
 
 void MatteChanges::take() {
-    if (!changing_ ||
-        changing_->matte.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return;
-    Changing done = std::move(*changing_);
-    changing_.reset();
-    const auto matte = std::make_shared<const Matte>(done.matte.get());
-    if (done.part)
-        use_.kept.keep_part(matte, changed_area(*done.part->matte, *matte), *done.part, done.place,
-                            done.label + ", ");
-    else
-        use_.kept.keep(matte, done.place,
-                       done.label + " on frame " + std::to_string(done.place.frame), done.shape);
-    if (const auto next = std::exchange(after_, nullptr)) next();
+    for (;;) {
+        if (running_) {
+            if (running_->made.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+                return;
+            keep(std::move(*std::exchange(running_, std::nullopt)));
+        }
+        if (waiting_.empty() || !start()) return;
+    }
+}
+
+void MatteChanges::finish() {
+    while (busy()) {
+        if (running_) running_->made.wait();
+        take();
+        if (busy() && !running_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+void MatteChanges::forget() {
+    if (running_) use_.shutdowns.end(std::move(running_->made));
+    running_.reset();
+    waiting_.clear();
+    undone_.clear();
+}
+
+void MatteChanges::note_undone() {
+    undone_at_ = {use_.document.made(), use_.document.redos()};
+}
+
+bool MatteChanges::take_back() {
+    if (!busy()) return false;
+    if (!undone_.empty() && undone_at_ != Undone{use_.document.made(), use_.document.redos()})
+        undone_.clear();
+    if (!waiting_.empty()) {
+        undone_.push_back(std::move(waiting_.back()));
+        waiting_.pop_back();
+    } else {
+        undone_.push_back(std::move(running_->change));
+        use_.shutdowns.end(std::move(running_->made));
+        running_.reset();
+    }
+    note_undone();
+    return true;
+}
+
+bool MatteChanges::again() {
+    if (undone_.empty()) return busy();  // what waits leaves nothing to redo
+    const Undone now{use_.document.made(), use_.document.redos()};
+    if (now.made != undone_at_.made || now.redos < undone_at_.redos) undone_.clear();
+    if (undone_.empty() || now.redos > undone_at_.redos) return busy();
+    waiting_.push_back(std::move(undone_.back()));
+    undone_.pop_back();
+    take();
+    return true;
+}
+
+void MatteChanges::show(SessionView& view) const {
+    view.matte_busy = busy();
+    view.modified |= busy();
+    if (busy())
+        view.undo_label = (waiting_.empty() ? running_->change : waiting_.back()).labels.whole;
+    if (!undone_.empty() && view.redo_label.empty()) view.redo_label = undone_.back().labels.whole;
 }
 
 }  // namespace weft

@@ -1,10 +1,12 @@
 #pragma once
 // Changes of a whole matte that are worked out in the background: fills, selections, shapes.
 
+#include <deque>
 #include <functional>
 #include <future>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/mattes/matte_painting.h"
 #include "app/session/action.h"
@@ -14,11 +16,13 @@
 #include "app/session/document/shutdowns.h"
 #include "app/session/mattes/kept_mattes.h"
 #include "app/session/mattes/paint_target.h"
+#include "app/session/session_view.h"
 #include "app/session/viewer/shown_plate.h"
 
 namespace weft {
 
-/// One at a time. Belongs to one thread and never blocks it.
+/// They are made one after another in the order in which they were asked for, each from what the
+/// ones before have left. Belongs to one thread and never blocks it, except in finish().
 class MatteChanges {
   public:
     /// The references must stay.
@@ -34,38 +38,70 @@ class MatteChanges {
     };
     explicit MatteChanges(Uses uses) : use_(std::move(uses)) {}
 
-    void change(std::function<Matte(const Matte&)> change, std::string label,
+    void change(std::function<Matte(const Matte&)> change, const std::string& label,
                 bool here_only = false);
+    void clear();
     void flood(const FloodSelect& action);
     void scribble(const ScribbleSelect& action);
     void set_shape(const RotoShape& shape);
+    /// A stroke that was drawn before its matte was there.
+    void paint(const MattePainting::Waiting& stroke, Counts counts, ChangeLabels labels);
     /// What the files show on the playhead's frame becomes a painted keyframe.
     void paint_instead();
 
-    /// A matte is being worked out.
-    [[nodiscard]] bool busy() const { return changing_.has_value(); }
-    /// Drops it. Returns true if there was one.
-    bool abandon();
-    /// Keeps one that is done. Call it in every update.
+    /// A matte is being worked out, or waits for it.
+    [[nodiscard]] bool busy() const { return running_.has_value() || !waiting_.empty(); }
+    /// Keeps one that is done, and begins with the next. Call it in every update.
     void take();
+    /// Waits until all are made.
+    void finish();
+    /// Another document was opened: drops all.
+    void forget();
+
+    // ---- undo and redo of what is not in the history yet ----
+    /// Takes the last one back. Returns false if there is none.
+    bool take_back();
+    /// Asks again for the one that was taken back. Returns false if the history has to redo one.
+    bool again();
+    /// What undo and redo would do, where that is one of them.
+    void show(SessionView& view) const;
+    /// Something else was done, after which nothing can be done again.
+    void forget_undone() { undone_.clear(); }
 
   private:
-    struct Changing {
-        std::future<Matte> matte;
+    /// Of a kind that has all of the one before in it, only the newest waits.
+    enum class Replaces : std::uint8_t { kNothing, kScribble, kShape };
+    struct Change {
         MattePlace place;
-        std::string label;
-        std::optional<RotoShape> shape;      // shape that the matte is drawn from
-        std::optional<ConfirmedMatte> part;  // before the change, if it counts in part only
+        Counts counts = Counts::kAll;
+        ChangeLabels labels;
+        std::function<ChangedMatte(const MattePtr&)> make;  // of the matte before, never null
+        std::optional<RotoShape> shape = {};                // that the matte is drawn from
+        bool from_nothing = false;                          // whatever the matte before is
+        Replaces replaces = Replaces::kNothing;
     };
-    /// Returns true if a matte is being changed; then `again` follows, if the artist is still
-    /// there.
-    bool follows(std::function<void()> again);
-    [[nodiscard]] bool may_change() const;
+    struct Running {
+        Change change;
+        std::future<ChangedMatte> made;
+        std::optional<ConfirmedMatte> part;
+    };
+    /// The state of the history with which the undone ones can be done again.
+    struct Undone {
+        std::uint64_t made = 0;
+        std::size_t redos = 0;
+        bool operator==(const Undone&) const = default;
+    };
+    void add(Change change);
+    /// Begins with the next one. Returns false if it has to wait.
+    bool start();
+    void keep(Running done);
+    void note_undone();
 
     Uses use_;
-    std::optional<Changing> changing_;
-    /// A scribble or shape that came while the one before was worked out; the newest counts.
-    std::function<void()> after_;
+    std::optional<Running> running_;
+    std::deque<Change> waiting_;
+    std::vector<Change> undone_;  // the last one taken back is the last
+    Undone undone_at_;
 };
 
 }  // namespace weft

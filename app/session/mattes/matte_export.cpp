@@ -6,6 +6,7 @@
 
 #include "app/exchange/input_files.h"
 #include "app/mattes/matte_layer.h"
+#include "app/preview/propagation_key.h"
 #include "app/shot/drawn_mattes.h"
 #include "app/shot/matte_movies.h"
 #include "app/shot/region_projection.h"
@@ -26,6 +27,7 @@ struct MattesToWrite {
     MatteEdgePlan edge;
     RegionId region = 0;
     int layer = 0;
+    std::string keyed;  // the propagation_key() of propagated ones
     std::shared_ptr<const FrameReader> plate;
     std::shared_ptr<const DrawnMattes> drawn;
 
@@ -38,7 +40,7 @@ struct MattesToWrite {
         }
         if (const auto key = source.keyframes.find(frame); key != source.keyframes.end())
             return read_matte(key->second.path, source.select, size);
-        return preview.propagated_matte(region, layer, frame);
+        return preview.propagated_matte({region, layer, frame, keyed});
     }
 };
 
@@ -77,7 +79,9 @@ void MatteExport::write(const std::string& pattern, Edges edges, Then then) {
     what.frames = {all.begin() + first, all.begin() + last + 1};
     what.region = use_.selection.region;
     what.layer = use_.selection.layer;
-    what.source = layer_source(*use_.selection.of(absolute), what.layer);
+    const Region& exported = *use_.selection.of(absolute);
+    what.source = layer_source(exported, what.layer);
+    what.keyed = propagation_key(absolute, exported, what.layer);
     if (edges == Edges::kAsShown) what.edge = project_edge(what.source.edge);
     what.plate = use_.plate.reader();
     what.drawn = use_.plate.drawn();

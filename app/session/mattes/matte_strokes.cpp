@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "app/mattes/matte_layer.h"
 
@@ -16,66 +17,76 @@ void MatteStrokes::prepare(const SessionView& shown) {
     const auto here = std::find_if(views.begin(), views.end(), [&](const RegionMatteView& view) {
         return view.region == place.region && view.layer == place.layer;
     });
-    if (here == views.end() || here->kind == RegionMatteView::Kind::kLoading) return;
+    if (here == views.end() || here->kind == RegionMatteView::Kind::kLoading ||
+        here->kind == RegionMatteView::Kind::kUnreached)
+        return;
     use_.painting.prepare(here->keep, use_.target.size());
 }
 
-void MatteStrokes::begin(const BeginStroke& action, bool busy) {
+void MatteStrokes::begin(const BeginStroke& action) {
     end();
-    before_.reset();
-    if (!use_.document.is_open() || !use_.target.may_paint(busy)) return;
-    if (action.kind == StrokeKind::kConfirm)
-        begin_confirming(action);
-    else
-        begin_painting(action);
-}
-
-void MatteStrokes::begin_painting(const BeginStroke& action) {
-    const auto matte = use_.target.matte();
-    if (!matte) return;
-    if (use_.target.counts_in_part(action.kind == StrokeKind::kHere) &&
-        !(before_ = use_.target.confirmed()))
-        return;
+    if (!use_.document.is_open() || !use_.target.may_paint()) return;
+    counts_ = action.kind == StrokeKind::kConfirm ? Counts::kAsRight
+              : action.kind == StrokeKind::kHere  ? Counts::kPart
+                                                  : Counts::kAll;
+    const bool confirms = counts_ == Counts::kAsRight;
+    if (confirms && !may_confirm()) return;
+    MattePlace place = use_.target.place();
+    const PaintBase base = use_.target.base(place, counts_);
+    if (base.state == PaintBase::State::kUnreached) return use_.target.refuse(base, place);
     use_.playback.stop();
-    use_.painting.begin(use_.target.place(), *matte, use_.target.size(), action.brush);
+    Brush brush = action.brush;
+    if (confirms) {
+        place.confirmed = true;
+        brush.opacity = 1;
+        brush.pressure_opacity = false;
+    }
+    use_.painting.begin(place, use_.target.size(), brush);
+    update();
     use_.painting.move_to(action.at, action.pressure);
 }
 
-void MatteStrokes::begin_confirming(const BeginStroke& action) {
-    if (use_.target.source().keyframes.empty())
-        return use_.notices.add(
+bool MatteStrokes::may_confirm() const {
+    const MatteSource& source = use_.target.source();
+    if (source.keyframes.empty()) {
+        use_.notices.add(
             NoticeKind::kWarning,
             "Paint a keyframe first. Then confirm edges on the frames it is propagated to.");
-    if (use_.target.counts_as_whole())
-        return use_.notices.add(
-            NoticeKind::kInfo,
-            "This frame is a keyframe or frozen: its whole matte counts as right already.");
-    before_ = use_.target.confirmed();
-    if (!before_) return;
-    use_.playback.stop();
-    MattePlace place = use_.target.place();
-    place.confirmed = true;
-    Brush brush = action.brush;
-    brush.opacity = 1;
-    brush.pressure_opacity = false;
-    use_.painting.begin(place, before_->area, use_.target.size(), brush);
-    use_.painting.move_to(action.at, action.pressure);
+        return false;
+    }
+    if (!PaintTarget::counts_as_whole(source, use_.target.place().frame)) return true;
+    use_.notices.add(
+        NoticeKind::kInfo,
+        "This frame is a keyframe or frozen: its whole matte counts as right already.");
+    return false;
+}
+
+void MatteStrokes::update() {
+    if (!use_.painting.waits() || use_.changes.busy()) return;
+    PaintBase base = use_.target.base(use_.painting.place(), counts_);
+    if (base.state == PaintBase::State::kReading) return;
+    if (base.state != PaintBase::State::kReady) {
+        use_.target.refuse(base, use_.painting.place());
+        return use_.painting.cancel();
+    }
+    part_ = std::move(base.part);
+    use_.painting.begin_on(base.before);
+}
+
+ChangeLabels MatteStrokes::labels(const MattePlace& place) const {
+    const Region* region = region_by_id(use_.document.project(), place.region);
+    return {"Paint " + (region ? layer_name(*region, place.layer) : std::string()),
+            counts_ == Counts::kAsRight ? "Confirm edge of " : "Correct "};
 }
 
 void MatteStrokes::end() {
+    if (const auto waiting = use_.painting.take_waiting())
+        return use_.changes.paint(*waiting, counts_, labels(waiting->place));
     const auto done = use_.painting.end();
-    const Region* region =
-        done ? region_by_id(use_.document.project(), done->place.region) : nullptr;
-    if (!region) return;
-    if (done->place.confirmed)
-        return use_.kept.keep_confirmed({before_->matte, done->matte}, done->place,
-                                        "Confirm edge of ");
-    if (before_)
-        return use_.kept.keep_part(done->matte, done->stroke->covered(), *before_, done->place,
-                                   "Correct ");
-    use_.kept.keep(done->matte, done->place,
-                   "Paint " + layer_name(*region, done->place.layer) + " on frame " +
-                       std::to_string(done->place.frame));
+    if (!done) return;
+    use_.changes.forget_undone();
+    use_.kept.keep_change({done->matte, done->stroke->covered()}, part_, done->place,
+                          labels(done->place));
 }
 
 }  // namespace weft

@@ -9,6 +9,7 @@
 #include "app/session/document/document.h"
 #include "app/session/document/notices.h"
 #include "app/session/mattes/kept_mattes.h"
+#include "app/session/mattes/matte_changes.h"
 #include "app/session/mattes/paint_target.h"
 #include "app/session/session_view.h"
 
@@ -24,24 +25,29 @@ class MatteStrokes {
         const PaintTarget& target;
         MattePainting& painting;
         KeptMattes& kept;
+        MatteChanges& changes;  ///< Those before a stroke are made first.
         Notices& notices;
     };
     explicit MatteStrokes(Uses uses) : use_(uses) {}
 
-    /// Ends the stroke before. `busy`: the matte is being changed in the background.
-    void begin(const BeginStroke& action, bool busy);
+    /// Ends the stroke before.
+    void begin(const BeginStroke& action);
     void go_on(const ContinueStroke& action) { use_.painting.move_to(action.at, action.pressure); }
-    /// Keeps what was painted, if anything was.
+    /// Keeps what was painted, if anything was; a stroke that still waits for its matte is one of
+    /// the changes from then on.
     void end();
+    /// Begins to paint a stroke that waited for its matte. Call it in every update.
+    void update();
     /// Prepares a stroke at the playhead from the mattes that are shown.
     void prepare(const SessionView& shown);
 
   private:
-    void begin_painting(const BeginStroke& action);
-    void begin_confirming(const BeginStroke& action);
+    [[nodiscard]] bool may_confirm() const;
+    [[nodiscard]] ChangeLabels labels(const MattePlace& place) const;
 
     Uses use_;
-    std::optional<ConfirmedMatte> before_;  // the stroke, if it counts in part only
+    Counts counts_ = Counts::kAll;        // of the stroke
+    std::optional<ConfirmedMatte> part_;  // as PaintBase::part
 };
 
 }  // namespace weft

@@ -17,7 +17,7 @@ bool PaintTarget::is_ready() const {
            !use_.selection.is_locked() && !source().by_frame() && source().select.crypto.empty();
 }
 
-bool PaintTarget::may_paint(bool busy) const {
+bool PaintTarget::may_paint() const {
     const auto warn = [&](const std::string& text) {
         use_.notices.add(NoticeKind::kWarning, text);
         return false;
@@ -35,48 +35,54 @@ bool PaintTarget::may_paint(bool busy) const {
                     " is drawn from a shape. Change the shape, or choose 'Surface' under Follow to "
                     "paint keyframes.");
     if (!use_.plate.reader()) return warn("The plate is not open yet.");
-    if (busy) return warn("Updating matte…");
     return true;
 }
 
-std::optional<MattePtr> PaintTarget::matte() const {
-    const RegionMatteView seen = shown();
-    if (seen.keep) return seen.keep;
-    if (seen.kind == RegionMatteView::Kind::kLoading &&
-        source().keyframes.contains(use_.playback.frame())) {
+bool PaintTarget::counts_as_whole(const MatteSource& source, int frame) {
+    return source.keyframes.contains(frame) ||
+           std::find(source.frozen.begin(), source.frozen.end(), frame) != source.frozen.end();
+}
+
+PaintBase PaintTarget::base(const MattePlace& place, Counts counts) const {
+    const Region* of = region_by_id(use_.document.project(), place.region);
+    if (!of || !use_.plate.reader()) return {};
+    const MatteSource& source = layer_source(*of, place.layer);
+    const bool whole = source.keyframes.empty() || counts_as_whole(source, place.frame);
+    if (counts == Counts::kAsRight && whole) return {};
+    if (counts != Counts::kAll && !whole) return part_base(*of, place, counts);
+    ShownMattes::Base found = use_.shown.base_of(*of, place.layer, place.frame);
+    if (found.matte || (found.reached && !found.reading))
+        return {PaintBase::State::kReady, std::move(found.matte), {}};
+    return {found.reached ? PaintBase::State::kReading : PaintBase::State::kUnreached, {}, {}};
+}
+
+PaintBase PaintTarget::part_base(const Region& of, const MattePlace& place, Counts counts) const {
+    ShownMattes::Base found = use_.shown.base_of(of, place.layer, place.frame);
+    if (!found.matte)
+        return {found.reached ? PaintBase::State::kReading : PaintBase::State::kUnreached, {}, {}};
+    ConfirmedMatte part{std::move(found.matte), {}, std::move(found.depends_on)};
+    part.area = layer_source(of, place.layer).confirmed.contains(place.frame)
+                    ? use_.shown.confirmed_area(of, place.layer, place.frame)
+                    : std::make_shared<const Matte>(size());
+    if (!part.area) {
+        std::string error = use_.shown.confirmed_error(of, place.layer, place.frame);
+        const auto state = error.empty() ? PaintBase::State::kReading : PaintBase::State::kNone;
+        return {state, {}, {}, std::move(error)};
+    }
+    MattePtr before = counts == Counts::kAsRight ? part.area : part.matte;
+    return {PaintBase::State::kReady, std::move(before), std::move(part)};
+}
+
+void PaintTarget::refuse(const PaintBase& base, const MattePlace& place) const {
+    const std::string frame = std::to_string(place.frame);
+    if (!base.error.empty())
+        use_.notices.add(NoticeKind::kError,
+                         "Cannot read what is confirmed on frame " + frame + ". " + base.error);
+    if (base.state == PaintBase::State::kUnreached)
         use_.notices.add(NoticeKind::kWarning,
-                         "This keyframe is still being read. Try again in a moment.");
-        return std::nullopt;
-    }
-    return nullptr;
-}
-
-bool PaintTarget::counts_as_whole() const {
-    const MatteSource& painted = source();
-    const int frame = use_.playback.frame();
-    return painted.keyframes.contains(frame) ||
-           std::find(painted.frozen.begin(), painted.frozen.end(), frame) != painted.frozen.end();
-}
-
-bool PaintTarget::counts_in_part(bool here_only) const {
-    return here_only && !source().keyframes.empty() && !counts_as_whole();
-}
-
-std::optional<ConfirmedMatte> PaintTarget::confirmed() const {
-    const auto later = [&](const char* what) {
-        use_.notices.add(NoticeKind::kWarning, std::string(what) + " Try again in a moment.");
-        return std::nullopt;
-    };
-    ConfirmedMatte out{shown().keep, {}};
-    if (!out.matte) return later("The matte of this frame is still being propagated.");
-    const int frame = use_.playback.frame();
-    if (!source().confirmed.contains(frame)) {
-        out.area = std::make_shared<const Matte>(size());
-        return out;
-    }
-    out.area = use_.shown.confirmed_area(*region(), use_.selection.layer, frame);
-    if (!out.area) return later("What is confirmed on this frame is still being read.");
-    return out;
+                         "The matte has not been propagated to frame " + frame +
+                             " yet. Wait for it, or choose 'Clear matte on this frame' to "
+                             "begin with an empty one.");
 }
 
 }  // namespace weft

@@ -16,8 +16,30 @@ namespace weft {
 
 /// A matte on a frame to which it is propagated, and what is confirmed of it.
 struct ConfirmedMatte {
-    MattePtr matte;  ///< Of the whole frame, as it is shown.
-    MattePtr area;   ///< What is confirmed of it.
+    MattePtr matte;          ///< Of the whole frame, as it is shown.
+    MattePtr area;           ///< What is confirmed of it.
+    std::string depends_on;  ///< Of `matte`, as PropagatedMatte has it.
+};
+
+/// How a change counts.
+enum class Counts : std::uint8_t {
+    kAll,     ///< The matte becomes the keyframe of its frame.
+    kPart,    ///< Where it was made, on a frame to which the matte is propagated.
+    kAsRight  ///< It changes what is confirmed there instead of the matte.
+};
+
+/// What a change begins with.
+struct PaintBase {
+    enum class State : std::uint8_t {
+        kReady,
+        kReading,    ///< It will be there soon.
+        kUnreached,  ///< The matte has not been propagated to the frame yet.
+        kNone        ///< There is nothing to change, or it cannot be read.
+    };
+    State state = State::kNone;
+    MattePtr before;                     ///< Is changed; null: an empty matte.
+    std::optional<ConfirmedMatte> part;  ///< Unless all of it counts.
+    std::string error = {};              ///< Why it cannot be read.
 };
 
 /// Says with a notice why something cannot be changed.
@@ -46,25 +68,21 @@ class PaintTarget {
     [[nodiscard]] Size size() const { return use_.plate.reader()->size(); }
     /// It stands still, and can be painted as far as is known without a word.
     [[nodiscard]] bool is_ready() const;
-    /// `busy`: its matte is being changed in the background.
-    [[nodiscard]] bool may_paint(bool busy) const;
+    [[nodiscard]] bool may_paint() const;
     /// As it is shown; its `keep` is null while it is read.
     [[nodiscard]] RegionMatteView shown() const {
         return use_.shown.matte_of(*region(), use_.selection.layer);
     }
-    /// Null: an empty matte. Nothing: not loaded yet.
-    [[nodiscard]] std::optional<MattePtr> matte() const;
-
-    // ---- confirmed parts ----
-    /// A change here counts where it is made only: not on a keyframe, where all of the matte
-    /// counts.
-    [[nodiscard]] bool counts_in_part(bool here_only) const;
+    /// What a change at this place begins with: what is seen there, with all changes before it.
+    [[nodiscard]] PaintBase base(const MattePlace& place, Counts counts) const;
+    /// Says why a change with this base was not made.
+    void refuse(const PaintBase& base, const MattePlace& place) const;
     /// On a keyframe or a frozen frame all of the matte counts.
-    [[nodiscard]] bool counts_as_whole() const;
-    /// What a change of a part begins with; nothing if it cannot begin.
-    [[nodiscard]] std::optional<ConfirmedMatte> confirmed() const;
+    [[nodiscard]] static bool counts_as_whole(const MatteSource& source, int frame);
 
   private:
+    [[nodiscard]] PaintBase part_base(const Region& of, const MattePlace& place,
+                                      Counts counts) const;
     Uses use_;
 };
 

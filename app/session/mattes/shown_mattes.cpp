@@ -20,20 +20,6 @@ std::string select_text(const MatteSelect& select) {
            (select.invert ? "/inverted" : "") + "/" + select.crypto;
 }
 
-// A key of everything in the document that a propagated matte depends on.
-std::string keys_text(const MatteSource& matte) {
-    Hasher hasher;
-    for (const auto& [frame, key] : matte.keyframes)
-        hasher.value(frame).text(key.path);
-    for (const auto& [frame, edge] : matte.confirmed)
-        hasher.value(frame).text(edge.path).text(edge.area);
-    hasher.value(matte.steadiness)
-        .value(static_cast<int>(matte.propagate_direction))
-        .value(matte.propagate_from.value_or(-1))
-        .value(matte.propagate_to.value_or(-1));
-    return hasher.finish().hex();
-}
-
 // The files of a matte for every frame; a Cryptomatte without files uses the plate's.
 std::string files_of(const MatteSource& source, const std::string& plate) {
     if (!source.files.empty()) return source.files;
@@ -78,22 +64,10 @@ Expected<ShownMattes::Wanted> ShownMattes::from_files(const std::string& files,
     return out;
 }
 
-ShownMattes::Wanted ShownMattes::propagated(const Region& region, int layer, int frame) {
-    Wanted out{Kind::kPropagated,
-               "propagated " + std::to_string(use_.document.id()) + " " +
-                   std::to_string(region.id) + " " + std::to_string(layer) + " " +
-                   std::to_string(frame) + " " + keys_text(layer_source(region, layer)),
-               [&preview = use_.preview, id = region.id, layer, frame] {
-                   return preview.propagated_matte(id, layer, frame);
-               }};
-    // It may exist now; retry.
-    if (!use_.shelf.error(out.name).empty()) {
-        const std::uint64_t now = use_.preview.matte_version();
-        std::uint64_t& tried = missed_[out.name];
-        if (tried != now) use_.shelf.forget(out.name);
-        tried = now;
-    }
-    return out;
+bool ShownMattes::is_propagated(const MatteSource& source, int frame) const {
+    return !source.empty() && use_.plate.reader() && source.shape.empty() &&
+           files_of(source, use_.document.project().plate.path).empty() &&
+           !source.keyframes.contains(frame);
 }
 
 Expected<ShownMattes::Wanted> ShownMattes::wanted(const Region& region, int layer, int frame) {
@@ -103,9 +77,7 @@ Expected<ShownMattes::Wanted> ShownMattes::wanted(const Region& region, int laye
     if (const std::string files = files_of(source, use_.document.project().plate.path);
         !files.empty())
         return from_files(files, source.select, frame);
-    const auto key = source.keyframes.find(frame);
-    if (key == source.keyframes.end()) return propagated(region, layer, frame);
-    const std::string path = resolve_path(use_.document.folder(), key->second.path);
+    const std::string path = resolve_path(use_.document.folder(), source.keyframes.at(frame).path);
     return Wanted{Kind::kPainted, path,
                   [path, select = source.select, size = use_.plate.reader()->size()] {
                       return read_matte(path, select, size);
@@ -121,26 +93,11 @@ RegionMatteView ShownMattes::matte_of(const Region& region, int layer, int frame
         show_stroke(*stroke, out);
         return out;
     }
-    const auto want = wanted(region, layer, frame);
-    if (!want) {
-        out.kind = Kind::kFailed;
-        out.error = want.error().text();
-        return out;
-    }
-    out.kind = want->kind;
-    if (out.kind == Kind::kNone) return out;
-    const MatteSource& source = layer_source(region, layer);
-    const bool propagated = out.kind == Kind::kPropagated;
-    out.keep = use_.shelf.get(want->name, want->read);
-    if (!out.keep && propagated) out.keep = confirmed_matte(source, frame);
-    if (!out.keep) {
-        out.error = use_.shelf.error(want->name);
-        out.kind = out.error.empty() || propagated ? Kind::kLoading : Kind::kFailed;
-        return out;
-    }
+    const std::string name = find(region, layer, out);
+    if (!out.keep) return out;
     Shown& shown = shown_[{region.id, layer, place}];
-    out.edged =
-        shown.edged.of(out.keep, project_edge(source.edge).at(frame), want->name, use_.shelf);
+    out.edged = shown.edged.of(out.keep, project_edge(layer_source(region, layer).edge).at(frame),
+                               name, use_.shelf);
     const MattePtr& visible = out.edged ? out.edged : out.keep;
     if (shown.matte != visible) shown = {shown.edged, visible, next_picture_id()};
     out.version = shown.version;
@@ -148,14 +105,46 @@ RegionMatteView ShownMattes::matte_of(const Region& region, int layer, int frame
     return out;
 }
 
-// Until it is propagated again, a frame with a confirmed part shows what was seen there then.
-MattePtr ShownMattes::confirmed_matte(const MatteSource& source, int frame) {
-    const auto edge = source.confirmed.find(frame);
-    if (edge == source.confirmed.end()) return {};
-    const std::string path = resolve_path(use_.document.folder(), edge->second.path);
-    return use_.shelf.get(path, [path, select = source.select, size = use_.plate.reader()->size()] {
-        return read_matte(path, select, size);
-    });
+// Finds the matte of the view's frame, or says why there is none. Returns its name on the shelf.
+std::string ShownMattes::find(const Region& region, int layer, RegionMatteView& out) {
+    if (is_propagated(layer_source(region, layer), out.frame))
+        return find_propagated(region, layer, out);
+    const auto want = wanted(region, layer, out.frame);
+    if (!want) {
+        out.kind = Kind::kFailed;
+        out.error = want.error().text();
+        return {};
+    }
+    out.kind = want->kind;
+    if (out.kind == Kind::kNone) return {};
+    out.keep = use_.shelf.get(want->name, want->read);
+    if (!out.keep) {
+        out.error = use_.shelf.error(want->name);
+        out.kind = out.error.empty() ? Kind::kLoading : Kind::kFailed;
+    }
+    return want->name;
+}
+
+std::string ShownMattes::find_propagated(const Region& region, int layer, RegionMatteView& out) {
+    PropagatedMatte found =
+        use_.propagated.find(region, layer, out.frame, use_.plate.reader()->size());
+    out.keep = std::move(found.matte);
+    out.kind = out.keep ? Kind::kPropagated : found.reached ? Kind::kLoading : Kind::kUnreached;
+    out.outdated = out.keep && !found.current;
+    return found.name;
+}
+
+ShownMattes::Base ShownMattes::base_of(const Region& region, int layer, int frame) {
+    if (is_propagated(layer_source(region, layer), frame)) {
+        PropagatedMatte found =
+            use_.propagated.find(region, layer, frame, use_.plate.reader()->size());
+        const bool reading = !found.matte && found.reached;
+        return {std::move(found.matte), reading, found.reached, std::move(found.depends_on)};
+    }
+    RegionMatteView out;
+    out.frame = frame;
+    (void)find(region, layer, out);
+    return {out.keep, out.kind == Kind::kLoading, true, {}};
 }
 
 MattePtr ShownMattes::confirmed_area(const Region& region, int layer, int frame) {
@@ -168,9 +157,16 @@ MattePtr ShownMattes::confirmed_area(const Region& region, int layer, int frame)
         path, [path, size = use_.plate.reader()->size()] { return read_matte(path, {}, size); });
 }
 
+std::string ShownMattes::confirmed_error(const Region& region, int layer, int frame) const {
+    const auto& edges = layer_source(region, layer).confirmed;
+    const auto edge = edges.find(frame);
+    if (edge == edges.end()) return {};
+    return use_.shelf.error(resolve_path(use_.document.folder(), edge->second.area));
+}
+
 void ShownMattes::forget() {
     shown_.clear();
-    missed_.clear();
+    use_.propagated.forget();
 }
 
 void ShownMattes::show(SessionView& view) {
@@ -191,6 +187,9 @@ void ShownMattes::show(SessionView& view) {
         for (int layer = -1; layer > first_layer(*region) || layer >= painted; --layer)
             view.zones.push_back(matte_of(*region, layer));
     }
+    view.reached.clear();
+    if (region && !layer_source(*region, painted).keyframes.empty() && use_.plate.reader())
+        view.reached = use_.propagated.reached(*region, painted);
     show_onion(region, view);
     show_confirmed(region, view);
 }

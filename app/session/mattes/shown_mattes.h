@@ -13,6 +13,7 @@
 #include "app/preview/preview.h"
 #include "app/session/document/document.h"
 #include "app/session/document/selection.h"
+#include "app/session/mattes/propagated_mattes.h"
 #include "app/session/session_view.h"
 #include "app/session/viewer/shown_plate.h"
 
@@ -28,7 +29,7 @@ class ShownMattes {
         const ShownPlate& plate;
         const Playback& playback;
         MatteShelf& shelf;
-        const Preview& preview;         ///< Has the propagated ones.
+        PropagatedMattes& propagated;
         const MattePainting& painting;  ///< The stroke that is shown in place of a matte.
     };
     explicit ShownMattes(Uses uses) : use_(uses) {}
@@ -37,8 +38,18 @@ class ShownMattes {
     [[nodiscard]] RegionMatteView matte_of(const Region& region, int layer) {
         return matte_of(region, layer, use_.playback.frame(), Place::kFrame);
     }
+    /// What is painted on a frame begins with this.
+    struct Base {
+        MattePtr matte;          ///< Null: empty, unless it is being read.
+        bool reading = false;    ///< It will be there soon.
+        bool reached = true;     ///< False: it has not been propagated to the frame yet.
+        std::string depends_on;  ///< As PropagatedMatte has it.
+    };
+    [[nodiscard]] Base base_of(const Region& region, int layer, int frame);
     /// What is confirmed of a propagated matte. Null: nothing is, or it is still being read.
     [[nodiscard]] MattePtr confirmed_area(const Region& region, int layer, int frame);
+    /// Why that cannot be read; empty: it can, or it is still being read.
+    [[nodiscard]] std::string confirmed_error(const Region& region, int layer, int frame) const;
 
     void show_onion_skin(bool shown) { onion_skin_ = shown; }
     /// Another document was opened.
@@ -65,15 +76,16 @@ class ShownMattes {
     [[nodiscard]] Wanted drawn(const MatteSource& source, int frame) const;
     [[nodiscard]] Expected<Wanted> from_files(const std::string& files, const MatteSelect& select,
                                               int frame) const;
-    [[nodiscard]] Wanted propagated(const Region& region, int layer, int frame);
-    [[nodiscard]] MattePtr confirmed_matte(const MatteSource& source, int frame);
+    [[nodiscard]] bool is_propagated(const MatteSource& source, int frame) const;
+    [[nodiscard]] std::string find(const Region& region, int layer, RegionMatteView& out);
+    [[nodiscard]] std::string find_propagated(const Region& region, int layer,
+                                              RegionMatteView& out);
     void show_onion(const Region* region, SessionView& view);
     void show_confirmed(const Region* region, SessionView& view);
 
     Uses use_;
     bool onion_skin_ = false;
     std::map<std::tuple<RegionId, int, Place>, Shown> shown_;  // by region, layer and place
-    std::map<std::string, std::uint64_t> missed_;  // name → matte_version() when it failed
 };
 
 /// The shape over time of a matte, with the track's whole path. `folder`: of the project.
