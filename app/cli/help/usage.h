@@ -12,10 +12,10 @@ namespace weft {
 /// Thrown by an option's callback: CLI11's own error holds one text, without the remedy.
 class RefusedValue : public CLI::ValidationError {
   public:
-    RefusedValue(const std::string& name, Error why)
+    RefusedValue(const std::string& name, weft::Error why)
         : ValidationError(name, why.sentence()), option(name), error(std::move(why)) {}
     std::string option;
-    Error error;
+    weft::Error error;
 };
 
 /// Converts a parse error of CLI11 to an error of kind Usage. `app` parsed the `argc` words.
