@@ -36,6 +36,13 @@ Expected<int> edit(const EditArguments& given) {
     return run_editor(options);
 }
 
+// A command has neither a dot nor a slash in its name.
+bool is_file(const std::string& word) {
+    std::error_code none;
+    return word.find_first_of("./") != std::string::npos && !word.starts_with('-') &&
+           std::filesystem::exists(word, none);
+}
+
 }  // namespace
 }  // namespace weft
 
@@ -50,5 +57,10 @@ int main(int argc, char** argv) {
     char command[] = "edit";
     char* with_edit[] = {argv[0], command, nullptr};
     if (argc < 2 && weft::has_display()) return weft::run_cli(2, with_edit, weft::edit);
+    // A file instead of a command is opened, as other programs do.
+    if (argc == 2 && weft::is_file(argv[1])) {
+        char* with_file[] = {argv[0], command, argv[1], nullptr};
+        return weft::run_cli(3, with_file, weft::edit);
+    }
     return weft::run_cli(argc, argv, weft::edit);
 }

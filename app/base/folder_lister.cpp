@@ -114,16 +114,23 @@ Expected<std::vector<FolderEntry>> list_folder(const std::string& folder) {
 const std::vector<FolderEntry>* FolderLister::entries(const std::string& folder) {
     if (pending_.valid() &&
         pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        auto listed = pending_.get();
+        auto [listed, file] = pending_.get();
         ready_ = listed.has_value();
         error_ = listed ? std::string() : listed.error().text();
         entries_ = listed ? std::move(*listed) : std::vector<FolderEntry>{};
+        file_ = std::move(file);
     }
     if (folder != folder_ && !pending_.valid()) {
         folder_ = folder;
         ready_ = false;
         error_.clear();
-        pending_ = in_background([folder] { return list_folder(folder); });
+        file_.clear();
+        pending_ = in_background([folder] {
+            std::error_code none;
+            if (fs::is_regular_file(folder, none))
+                return Listed{list_folder(fs::path(folder).parent_path().string()), folder};
+            return Listed{list_folder(folder), {}};
+        });
     }
     return ready_ && folder == folder_ ? &entries_ : nullptr;
 }

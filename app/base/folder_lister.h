@@ -29,14 +29,20 @@ class FolderLister {
     /// The entries of a folder; null while they are being read.
     [[nodiscard]] const std::vector<FolderEntry>* entries(const std::string& folder);
     [[nodiscard]] const std::string& error() const { return error_; }
+    /// The file that was asked for instead of a folder; empty: none. entries() are those beside it.
+    [[nodiscard]] const std::string& file() const { return file_; }
     void refresh() { folder_.clear(); }
     [[nodiscard]] bool busy() const { return pending_.valid(); }
 
   private:
-    std::string folder_, error_;
+    struct Listed {
+        Expected<std::vector<FolderEntry>> entries;
+        std::string file;
+    };
+    std::string folder_, error_, file_;
     std::vector<FolderEntry> entries_;
     bool ready_ = false;
-    std::future<Expected<std::vector<FolderEntry>>> pending_;
+    std::future<Listed> pending_;
 };
 
 }  // namespace weft

@@ -1,24 +1,32 @@
 #include "app/base/job_messages.h"
 
+#include <algorithm>
+#include <span>
 #include <string_view>
 
+#include "app/project/parameters.h"
 #include "engine/core/setting.h"
 
 namespace weft {
 namespace {
 
+template <class Owner>
+bool is_key(std::span<const Parameter<Owner>> table, std::string_view key) {
+    return std::any_of(table.begin(), table.end(),
+                       [&](const Parameter<Owner>& entry) { return entry.full_key() == key; });
+}
+
 // "{key}" or "{key=value}" of a known setting.
 std::string named(std::string_view inside, bool& known) {
     const std::size_t equals = inside.find('=');
     const std::string_view key = inside.substr(0, equals);
-    for (const std::string_view setting : setting::kAll)
-        if (setting == key) {
-            known = true;
-            return setting_name({setting, equals == std::string_view::npos
-                                              ? std::string()
-                                              : std::string(inside.substr(equals + 1))});
-        }
-    return {};
+    known = std::find(setting::kAll.begin(), setting::kAll.end(), key) != setting::kAll.end() ||
+            is_key(region_parameters(), key) || is_key(project_parameters(), key) ||
+            is_key(matte_parameters(), key) || is_key(zone_parameters(), key);
+    if (!known) return {};
+    return setting_name({key, equals == std::string_view::npos
+                                  ? std::string()
+                                  : std::string(inside.substr(equals + 1))});
 }
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {

@@ -52,6 +52,41 @@ TEST(Messages, FlagsAreFoundInStrings) {
     EXPECT_THAT(flags_in("if (--left == 0) say(\"a – b\");"), testing::IsEmpty());
 }
 
+// Placeholders for settings are written by by() only, which each front end replaces.
+TEST(Messages, NoStringHoldsAPlaceholder) {
+    const std::regex placeholder(R"re("[^"]*[^{"]\{[a-z_]+(\.[a-z_]+)+\}[^"]*")re");
+    EXPECT_TRUE(std::regex_search(std::string(R"t("Draw it ({form.shape}).")t"), placeholder));
+    EXPECT_FALSE(
+        std::regex_search(std::string(R"t("a" + by({{kind.layer}}) + "b")t"), placeholder));
+    const fs::path root(test::source_folder());
+    for (const char* folder : {"engine", "texture_db", "gpu", "app", "ui"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            const std::string path = entry.path().lexically_relative(root).generic_string();
+            if (!path.ends_with(".cpp") && !path.ends_with(".h")) continue;
+            std::ifstream stream(entry.path());
+            for (std::string line; std::getline(stream, line);)
+                if (line.find('{') != std::string::npos && line.find('"') < line.find("//"))
+                    EXPECT_FALSE(std::regex_search(line, placeholder)) << path << ": " << line;
+        }
+    }
+}
+
+// Every setting that messages name is one that each front end is asked about.
+TEST(Messages, EverySettingIsInTheListOfAll) {
+    std::ifstream stream(fs::path(test::source_folder()) / "engine" / "core" / "setting.h");
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    const std::size_t list = text.find("kAll{");
+    ASSERT_NE(list, std::string::npos);
+    const std::string all = text.substr(list, text.find("};", list) - list);
+    const std::regex declared(R"re(\b(k[A-Z]\w*) =\s*")re");
+    int count = 0;
+    for (std::sregex_iterator at(text.begin(), text.end(), declared), end; at != end; ++at) {
+        ++count;
+        EXPECT_TRUE(std::regex_search(all, std::regex("\\b" + (*at)[1].str() + "\\b"))) << (*at)[1];
+    }
+    EXPECT_GT(count, 60);
+}
+
 TEST(Messages, OnlyTheCommandLineNamesFlags) {
     const fs::path root(test::source_folder());
     std::vector<std::string> found;

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
+#include "app/project/parameters.h"
 #include "engine/core/setting.h"
 
 namespace weft::test {
@@ -31,6 +35,20 @@ TEST_F(JobMessages, SettingsWithoutALabelAreLeftOut) {
     EXPECT_EQ(with_setting_names("Free memory ({run.memory})."), "Free memory.");
     EXPECT_EQ(with_setting_names("Do it ({run.memory}, {run.overwrite})."),
               "Do it (If files exist: Overwrite).");
+}
+
+// Whatever setting a message names, no key of it is left.
+TEST_F(JobMessages, NoSettingStaysAKey) {
+    std::vector<std::string> keys(setting::kAll.begin(), setting::kAll.end());
+    for (const auto& entry : region_parameters())
+        keys.push_back(entry.full_key());
+    for (const auto& entry : project_parameters())
+        keys.push_back(entry.full_key());
+    EXPECT_GT(keys.size(), 200u);
+    for (const std::string& key : keys) {
+        const std::string said = with_setting_names("Do it ({" + key + "}), or ({" + key + "=1}).");
+        EXPECT_EQ(said.find_first_of("{}"), std::string::npos) << said;
+    }
 }
 
 TEST_F(JobMessages, OtherBracesStay) {

@@ -263,6 +263,18 @@ TEST(Interface, TheManualPageIsThatOfTheProgram) {
 }
 
 // Runs the completion as bash does; the last word is unfinished.
+using FileAsCommand = CliTest;
+
+// As "Open with" starts it. Without a screen it says so, instead of calling the file no command.
+TEST_F(FileAsCommand, OpensTheEditor) {
+    make_shot(1);
+    options_.environment = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+    expect_failure(run({"frames/0001.png"}), 1, {"display"});
+    const Outcome none = run({"frames/none.png"});
+    EXPECT_EQ(none.exit, 2);
+    EXPECT_THAT(none.err, ::testing::Not(::testing::HasSubstr("display")));
+}
+
 class Completion : public CliTest {
   protected:
     std::set<std::string> complete(const Words& words) const {

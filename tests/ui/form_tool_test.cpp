@@ -68,6 +68,18 @@ TEST_F(FormTool, AHandleCorrectsTheShape) {
     EXPECT_NEAR(form().shape[0].numbers[2], 50, 0.6);
 }
 
+TEST_F(FormTool, SaysOnAShapeWhyItCannotBeUsed) {
+    change([](Region& r) { r.form.shape = {guide(FormGuideKind::kBall, {100, 80, 40})}; });
+    go("Texture", Tool::kForm);
+    EXPECT_EQ(robot->find("Form problem"), nullptr);
+    view.form_problems[view.selected] = "The shape does not lie on the region.";
+    robot->frames(2);
+    const DrawnItem* said = robot->find("Form problem");
+    ASSERT_NE(said, nullptr);
+    const ImVec2 centre = on(100, 80);
+    EXPECT_LT(std::hypot(said->min.x - centre.x, said->min.y - centre.y), 300);
+}
+
 TEST_F(FormTool, CtrlRemovesAShapeAndTheSourceIsAutomaticAgain) {
     change([](Region& r) {
         r.form.shape = {guide(FormGuideKind::kBall, {100, 80, 40})};

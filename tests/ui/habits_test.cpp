@@ -1,5 +1,9 @@
 // Habits of the hand: menus, modifiers, the wipe's line, and another shot.
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
 
 #include "tests/ui/canvas_fixture.h"
 
@@ -43,6 +47,29 @@ TEST_F(Habits, TheFileDialogListsEveryRecentFolderOnce) {
               2);
     ASSERT_TRUE(robot->click("shots"));  // the last one
     EXPECT_EQ(shell->state().browser.folder, "/b/shots");
+}
+
+// Every file dialog takes a path that is typed or pasted.
+TEST_F(Habits, AFileThatIsTypedInTheOpenDialogIsOpened) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(::testing::TempDir()) / "weft_typed_file";
+    fs::create_directories(folder);
+    std::ofstream(folder / "shot.weft") << "{}";
+    robot->frames(2);
+    robot->key("Ctrl+O");
+    robot->frames(3);
+    ASSERT_EQ(shell->state().browser.purpose, BrowserState::Purpose::kOpen);
+    ASSERT_TRUE(robot->click("Browser/Folder"));
+    robot->key("Ctrl+A");
+    robot->type((folder / "shot.weft").string());
+    robot->key("Enter");
+    for (int k = 0; k < 500 && emitted<OpenAny>().empty(); ++k) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        robot->frames(1);
+    }
+    ASSERT_THAT(emitted<OpenAny>(), SizeIs(1));
+    EXPECT_EQ(emitted<OpenAny>()[0].path, (folder / "shot.weft").string());
+    fs::remove_all(folder);
 }
 
 TEST_F(Habits, AMenuIsClosedByItsNameAndByEsc) {
@@ -93,7 +120,7 @@ TEST_F(Habits, AnotherShotHasAnOutputAndAViewOfItsOwn) {
     view.render_folder = "/shots/a_render_v001";
     go("Jobs", Tool::kPan);
     UiState& state = shell->state();
-    EXPECT_EQ(state.output.output, "/shots/a_render_v001/####.png");
+    EXPECT_EQ(state.output.output, "/shots/a_render_v001/Shot_v001.####.png");
     state.output.output = "/elsewhere/####.png";
     state.viewer.fit = false;
     state.viewer.zoom = 8;
@@ -102,14 +129,14 @@ TEST_F(Habits, AnotherShotHasAnOutputAndAViewOfItsOwn) {
     ++view.document;
     view.render_folder = "/shots/b_render_v001";
     robot->frames(2);
-    EXPECT_EQ(state.output.output, "/shots/b_render_v001/####.png");
+    EXPECT_EQ(state.output.output, "/shots/b_render_v001/Shot_v001.####.png");
     EXPECT_TRUE(state.viewer.fit);
     EXPECT_EQ(state.drawer.search, "");
     EXPECT_FALSE(state.measured);
     // Saved under another name: what was proposed follows, what was typed stays.
     view.render_folder = "/shots/c_render_v001";
     robot->frames(2);
-    EXPECT_EQ(state.output.output, "/shots/c_render_v001/####.png");
+    EXPECT_EQ(state.output.output, "/shots/c_render_v001/Shot_v001.####.png");
 }
 
 TEST_F(Habits, AnAutomaticReferenceFrameStaysWhenOneIsAdded) {

@@ -84,7 +84,7 @@ TEST_F(PaintedLayers, KeysOfALayerAreSetAndRemovedThere) {
     paint_holdout();
     ASSERT_THAT(*region().holdouts, SizeIs(1));
     session->act(GoToFrame{2});
-    shell->state().brush.here_only = false;
+    settings.here_only = false;
     robot->frames(2);
     robot->stroke({at(52, 20), at(52, 44)});
     robot->frames(3);

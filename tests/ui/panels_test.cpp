@@ -171,6 +171,15 @@ TEST_F(PanelTest, TheRenderButtonSubmitsTheFramesThatItNames) {
     EXPECT_EQ(emitted<SubmitJob>()[0].frames, "1002-1005");
 }
 
+TEST_F(PanelTest, AFormThatCannotBeUsedIsSaidBeforeItIsRendered) {
+    view.form_problems[view.project.regions[0]->id] = "The shape does not lie on the region.";
+    ASSERT_TRUE(robot->click("Top/Jobs"));
+    robot->frames(2);
+    EXPECT_NE(robot->find("Export/Form problem"), nullptr);
+    robot->click("Render frames");
+    EXPECT_THAT(emitted<SubmitJob>(), IsEmpty());
+}
+
 TEST_F(PanelTest, FramesThatExistAreSaidBeforeTheyAreRendered) {
     namespace fs = std::filesystem;
     const fs::path folder = fs::path(::testing::TempDir()) / "weft_existing_frames";

@@ -76,11 +76,12 @@ struct CompareState {
     int frame = 0;        ///< of this frame.
 };
 
+/// A smaller brush covers no pixel as a whole, so that a stroke would leave nothing.
+inline constexpr float kLeastBrush_px = 1;
+
 struct BrushState {
     Brush brush;
     int tolerance = 24;
-    /// Corrections of propagated frames count where they are made only (StrokeKind::kHere).
-    bool here_only = true;
     std::optional<Vec2> line_from;  ///< End of the last stroke; Shift draws a line from it.
     std::vector<Vec2> outline;      ///< Points of an unfinished lasso or polygon.
     bool outline_subtracts = false;
@@ -163,6 +164,9 @@ struct BrowserState {
     };
     Purpose purpose = Purpose::kNone;
     std::string folder, name, filter;
+    std::string listed;       ///< The folder or file that is read: not every one that is typed.
+    double typed_at_s = -1;   ///< When `folder` was typed in last.
+    bool open_typed = false;  ///< Enter was pressed: opens what was typed, if it is a file.
     int selected = -1;
     bool just_opened = false;
 };

@@ -244,6 +244,36 @@ const FolderEntry* entries(Ctx& c, const std::vector<FolderEntry>& all, ImVec2 s
     return chosen;
 }
 
+// The folder to list: while one types, the one before, since each key would read another one.
+const std::string& listed_path(BrowserState& b) {
+    constexpr double kRest_s = 0.3;
+    const bool typing = ImGui::GetIO().WantTextInput && b.typed_at_s > 0 &&
+                        ImGui::GetTime() - b.typed_at_s < kRest_s && !ImGui::IsKeyPressed(257);
+    if (!typing || b.listed.empty()) b.listed = from_home(b.folder);
+    return b.listed;
+}
+
+// Where it is: the folder's field takes any path.
+void folder_row(Ctx& c) {
+    const Theme& t = c.theme;
+    BrowserState& b = c.state.browser;
+    if (icon_button(c, icons::kArrowUp, "Up one folder", false, nullptr, true, t.row)) {
+        b.folder = parent_of(b.folder);
+        b.selected = -1;
+    }
+    ImGui::SameLine();
+    if (icon_button(c, icons::kRefresh, "Reload folder", false, nullptr, true, t.row))
+        c.folders.refresh();
+    ImGui::SameLine();
+    const std::string before = b.folder;
+    input(c, "Folder", b.folder, wants_folder(b.purpose) ? "Folder" : "Folder, or a file", -1);
+    if (b.folder != before) {
+        b.typed_at_s = ImGui::GetTime();
+        b.selected = -1;
+        b.open_typed = false;
+    }
+}
+
 // The name to save under. Returns true as it is left: Enter there saves, and in the folder's field
 // only goes to the folder.
 bool name_field(Ctx& c, float width, bool opened) {
@@ -285,21 +315,15 @@ void file_browser(Ctx& c) {
     ImGui::TextUnformatted(title_of(b.purpose));
     ImGui::PopFont();
     ImGui::SetCursorPos({t.px(16), t.px(48)});
-    if (icon_button(c, icons::kArrowUp, "Up one folder", false, nullptr, true, t.row)) {
-        b.folder = parent_of(b.folder);
-        b.selected = -1;
-    }
-    ImGui::SameLine();
-    if (icon_button(c, icons::kRefresh, "Reload folder", false, nullptr, true, t.row))
-        c.folders.refresh();
-    ImGui::SameLine();
-    input(c, "Folder", b.folder, "Folder", -1);
+    folder_row(c);
     const bool among = b.purpose == Purpose::kSaveProject && saves_among_frames(c, b);
     const float body = size.y - t.px(48 + 34 + 56 + (among ? 36 : 0));
     ImGui::SetCursorPos({t.px(16), t.px(84)});
     places(c, {t.px(170), body});
     ImGui::SetCursorPos({t.px(198), t.px(84)});
-    const std::vector<FolderEntry>* all = c.folders.entries(b.folder);
+    const std::vector<FolderEntry>* all = c.folders.entries(listed_path(b));
+    // What is typed may be a file, which is then opened.
+    const std::string& typed = c.folders.file();
     const FolderEntry* chosen = nullptr;
     const FolderEntry* selected = nullptr;
     if (all) {
@@ -326,12 +350,15 @@ void file_browser(Ctx& c) {
     bool cancel = button(c, "Cancel", {.width = t.px(96)});
     ImGui::SameLine();
     const bool can = folder ? b.purpose != Purpose::kSaveProject || (!b.name.empty() && !among)
-                            : selected != nullptr;
+                            : selected != nullptr || !typed.empty();
     const char* verb = b.purpose == Purpose::kSaveProject ? "Save"
                        : folder                           ? "Use this folder"
                                                           : "Open";
     const bool go = button(c, verb, {.look = Look::kPrimary, .enabled = can, .width = t.px(106)});
     const bool enter = ImGui::IsKeyPressed(257) && can && (named || !ImGui::GetIO().WantTextInput);
+    // It may still have to be looked up.
+    b.open_typed =
+        !folder && (b.open_typed || ImGui::IsKeyPressed(257)) && (!all || !typed.empty());
     cancel |= ImGui::IsKeyPressed(256);
     ImGui::End();
     const FolderEntry* use = chosen ? chosen : (go || enter) && !folder ? selected : nullptr;
@@ -340,6 +367,9 @@ void file_browser(Ctx& c) {
         b.selected = -1;
     } else if (use && !folder) {
         accept(c, use->path);
+    } else if (!folder && !selected && !typed.empty() && (go || b.open_typed)) {
+        b.open_typed = false;
+        accept(c, typed);
     } else if ((go || enter) && folder) {
         std::string path = b.folder;
         if (b.purpose == Purpose::kSaveProject) path = path_to_save(b);

@@ -16,9 +16,8 @@ std::string plate_folder(const Ctx& c) {
 
 // What is typed as a name may be a path: from the root, from home, or from the folder shown.
 std::string typed_path(const std::string& folder, const std::string& name) {
-    if (name.starts_with('/')) return name;
-    if (name == "~" || name.starts_with("~/")) return home() + name.substr(1);
-    return joined(folder, name);
+    const std::string path = from_home(name);
+    return path.starts_with('/') ? path : joined(folder, name);
 }
 
 }  // namespace
@@ -27,6 +26,10 @@ std::string home() {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing in the program sets a variable.
     const char* path = std::getenv("HOME");
     return path && *path ? path : "/";
+}
+
+std::string from_home(const std::string& path) {
+    return path == "~" || path.starts_with("~/") ? home() + path.substr(1) : path;
 }
 
 std::string parent_of(const std::string& folder) {

@@ -8,6 +8,8 @@
 namespace weft::ui {
 
 [[nodiscard]] std::string home();
+/// A path that begins with "~" from the root.
+[[nodiscard]] std::string from_home(const std::string& path);
 [[nodiscard]] std::string parent_of(const std::string& folder);
 [[nodiscard]] std::string joined(const std::string& folder, const std::string& name);
 

@@ -100,7 +100,7 @@ void leave_question(Ctx& c) {
         }
     }
     ImGui::SameLine();
-    if (button(c, "Stay") || !open) {
+    if (button(c, "Cancel") || !open) {
         c.state.leave_asked = false;
         c.state.leave_then = {};
     }

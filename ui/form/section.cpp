@@ -137,7 +137,10 @@ void form_section(Ctx& c, const Region& region) {
     region_parameter(c, region, "form.source", "Source");
     if (region.form.source == FormSource::kInflate) region_parameter(c, region, "form.roundness");
     keyed_parameter(c, region, "form.amount", "form.amount_keys");
-    finding(c, region);
+    if (const auto why = c.view.form_problems.find(region.id); why != c.view.form_problems.end())
+        banner(c, icons::kAlert, c.theme.bad, why->second);
+    else
+        finding(c, region);
     kind_buttons(c, "Shapes", {"Plane", "Cylinder", "Cone", "Ball"}, kFormShapes);
     kind_buttons(c, "Strokes", {"Level", "Parallel", "Cut"}, kStrokes);
     const FormParams& form = region.form;

@@ -61,12 +61,46 @@ struct Touched {
     std::optional<std::size_t> removed;  // the handle
 };
 
+// Why a render would refuse what is drawn; null: it would not.
+const std::string* problem_of(const Ctx& c) {
+    const auto found = c.view.form_problems.find(c.view.selected);
+    return found == c.view.form_problems.end() ? nullptr : &found->second;
+}
+
+// Says on the drawing why it cannot be used.
+void show_problem(Ctx& c, const ViewMap& map, const FormToolState& drawn) {
+    const std::string* why = problem_of(c);
+    if (!why || any_handle_held(c)) return;
+    ImVec2 at(map.max.x, map.max.y);
+    for (const auto* guides : {&drawn.shape, &drawn.strokes})
+        for (const FormGuide& guide : *guides)
+            for (const GuideHandle& one : handles_of(guide)) {
+                const ImVec2 place = map.to_screen(one.at);
+                at = {std::min(at.x, place.x), std::min(at.y, place.y)};
+            }
+    const Theme& t = c.theme;
+    const float width = std::min(t.px(360), map.max.x - map.min.x - t.px(16));
+    const ImVec2 size = t.small->CalcTextSizeA(t.small->FontSize, width, width, why->c_str());
+    const float pad = t.px(8);
+    at.x = std::clamp(at.x, map.min.x + pad, std::max(map.min.x, map.max.x - size.x - 3 * pad));
+    at.y = std::clamp(at.y, map.min.y + pad, std::max(map.min.y, map.max.y - size.y - 3 * pad));
+    const ImVec2 end(at.x + size.x + 2 * pad, at.y + size.y + 2 * pad);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, end, t.scrim, t.radius);
+    list.AddRect(at, end, t.bad, t.radius);
+    list.AddText(t.small, t.small->FontSize, {at.x + pad, at.y + pad}, t.text, why->c_str(),
+                 nullptr, width);
+    c.note("Form problem", at, end);
+}
+
 // The handles of a guide, which they change.
 Touched drag_guide_handles(Ctx& c, const ViewMap& map, bool hovered, std::size_t index,
                            FormGuide& guide) {
     Touched out;
     const std::vector<GuideHandle> handles = handles_of(guide);
-    const ImU32 color = is_shape(guide.kind) ? c.theme.accent_hover : c.theme.warn;
+    const ImU32 color = problem_of(c)          ? c.theme.bad
+                        : is_shape(guide.kind) ? c.theme.accent_hover
+                                               : c.theme.warn;
     draw_lines(c, map, guide, color);
     for (std::size_t k = 0; k < handles.size(); ++k) {
         Vec2 at = handles[k].at;
@@ -162,6 +196,7 @@ void form_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
             return set_form(c, *region);
         }
     }
+    show_problem(c, map, s);
     if (s.parallel) draw_lines(c, map, *s.parallel, c.theme.warn);
     if (all.done) return set_form(c, *region);
     if (all.over || any_handle_held(c) || !active || !ImGui::IsMouseClicked(0)) return;

@@ -18,10 +18,21 @@ namespace {
 
 constexpr const char* kExtensions[] = {"png", "exr", "tif", "jpg"};
 
+// "bedroom_v001" for the folder "bedroom_render_v001": a frame says what it is of wherever it is
+// copied to.
+std::string frame_name(const Ctx& c) {
+    std::string name = c.view.title;
+    std::replace_if(
+        name.begin(), name.end(), [](char at) { return at == '/' || at == '#' || at == '%'; }, '_');
+    const std::size_t version = c.view.render_folder.rfind("_v");
+    return version == std::string::npos ? name : name + c.view.render_folder.substr(version);
+}
+
 void fill_defaults(Ctx& c) {
     ExportState& e = c.state.output;
     const Output& own = c.view.project.output;
-    std::string proposed = c.view.render_folder + "/####." + kExtensions[e.format];
+    std::string proposed =
+        c.view.render_folder + "/" + frame_name(c) + ".####." + kExtensions[e.format];
     if (!own.path.empty())
         proposed = own.path.starts_with('/') || c.view.path.empty()
                        ? own.path
@@ -52,7 +63,7 @@ void set_extension(std::string& path, const char* extension) {
     path += std::string(".") + extension;
 }
 
-// "render_v001" → "render_v002".
+// "render_v001/wall_v001" → "render_v002/wall_v002".
 void version_up(std::string& path) {
     const std::size_t at = path.rfind("_v");
     if (at == std::string::npos) return;
@@ -60,10 +71,13 @@ void version_up(std::string& path) {
     while (end < path.size() && path[end] >= '0' && path[end] <= '9')
         ++end;
     if (end == at + 2 || end - at > 8) return;
-    std::string number = std::to_string(std::stoi(path.substr(at + 2, end - at - 2)) + 1);
-    while (number.size() < end - at - 2)
+    const std::string before = path.substr(at, end - at);
+    std::string number = std::to_string(std::stoi(before.substr(2)) + 1);
+    while (number.size() < before.size() - 2)
         number.insert(number.begin(), '0');
-    path.replace(at + 2, end - at - 2, number);
+    for (std::size_t found = path.find(before); found != std::string::npos;
+         found = path.find(before, found + 1))
+        path.replace(found, before.size(), "_v" + number);
 }
 
 RenderEstimate estimate_of(const Ctx& c, const std::vector<int>& frames, Quality quality) {
@@ -241,6 +255,13 @@ bool output_notice(Ctx& c, const std::vector<int>& frames) {
 
 // Says what keeps the project from being rendered; true if nothing does.
 bool project_notice(Ctx& c) {
+    if (const auto& forms = c.view.form_problems; !forms.empty()) {
+        const Region* region = region_by_id(c.view.project, forms.begin()->first);
+        const std::string of = region ? "Form of " + region->name + ": " : std::string();
+        banner(c, icons::kAlert, c.theme.bad, of + forms.begin()->second);
+        c.note("Form problem");
+        return false;
+    }
     const auto problem =
         std::find_if(c.view.issues.begin(), c.view.issues.end(),
                      [](const Issue& issue) { return issue.severity == Severity::kError; });

@@ -47,11 +47,11 @@ void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
     }
     // Wait for earlier cards or for the main picture.
     const PreviewView& preview = c.view.preview;
-    const std::string waiting = preview.analysing && preview.total > 0
-                                    ? "After the analysis, " + std::to_string(preview.done) + "/" +
-                                          std::to_string(preview.total)
-                                : c.view.analysis_paused ? std::string("The analysis is paused")
-                                                         : std::string("Rendering…");
+    const std::string waiting =
+        preview.analysing && preview.total > 0
+            ? "After the analysis, " + percent_text(preview.done, preview.total)
+        : c.view.analysis_paused ? std::string("The analysis is paused")
+                                 : std::string("Rendering…");
     const std::string text = one.error.empty() ? waiting : "No result";
     ImGui::PushFont(t.small);
     text_in(list, t.small, min, max, one.error.empty() ? t.quiet : t.bad,

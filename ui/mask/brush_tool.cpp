@@ -44,7 +44,7 @@ void brush_tool(Ctx& c, const ViewMap& map, bool hovered) {
     // Ctrl with the right button changes the brush size, as in other paint tools.
     if (hovered && io.KeyCtrl && ImGui::IsMouseDragging(1, 0))
         b.brush.radius_px =
-            std::clamp(b.brush.radius_px + io.MouseDelta.x / map.zoom, 0.5f, 2000.0f);
+            std::clamp(b.brush.radius_px + io.MouseDelta.x / map.zoom, kLeastBrush_px, 2000.0f);
 }
 
 void brush_input(Ctx& c, const ViewMap& map, bool active) {
@@ -52,7 +52,7 @@ void brush_input(Ctx& c, const ViewMap& map, bool active) {
     if (!paints(c.state.tool)) return;
     BrushState& b = c.state.brush;
     const StrokeKind kind = c.state.tool == Tool::kConfirm ? StrokeKind::kConfirm
-                            : b.here_only                  ? StrokeKind::kHere
+                            : c.settings.here_only         ? StrokeKind::kHere
                                                            : StrokeKind::kKeyframe;
     const ImGuiIO& io = ImGui::GetIO();
     const Vec2 at = map.to_plate(io.MousePos);

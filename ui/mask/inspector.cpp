@@ -44,9 +44,6 @@ void keyframe_rows(Ctx& c, const Region& region, const MatteSource& matte) {
     const float half = std::floor((ImGui::GetContentRegionAvail().x - c.theme.gap) * 0.5f);
     const bool key_here = matte.keyframes.contains(c.view.frame);
     const bool part_here = !key_here && matte.confirmed.contains(c.view.frame);
-    if (!matte.confirmed.empty())
-        info_row(c, "Confirmed in part", frame_count(matte.confirmed.size()),
-                 "Frames on which parts of the matte are confirmed or corrected");
     if (button(c, "Add keyframe",
                {.enabled = !key_here,
                 .tip = "Makes this frame's matte a keyframe that you can correct",
@@ -67,6 +64,10 @@ void keyframe_rows(Ctx& c, const Region& region, const MatteSource& matte) {
                 .tip = "Copies the nearest earlier keyframe's matte to this frame",
                 .width = -1}))
         c.emit(CopyKeyframe{std::prev(before)->first, c.view.frame});
+    // Below the buttons, which must not move when it appears.
+    if (!matte.confirmed.empty())
+        info_row(c, "Confirmed in part", frame_count(matte.confirmed.size()),
+                 "Frames on which parts of the matte are confirmed or corrected");
 }
 
 void matte_source_card(Ctx& c, const Region& region) {
@@ -249,7 +250,7 @@ void size_row(Ctx& c, Brush& brush) {
                .standard = 24,
                .decimals = 0,
                .logarithmic = true,
-               .typed_min = 0.5,
+               .typed_min = kLeastBrush_px,
                .typed_max = 2000},
               brush.radius_px);
 }
@@ -335,7 +336,7 @@ void mask_inspector(Ctx& c) {
             quiet(c, "Drag to pan the viewer");
         }
         if (corrects(c.state.tool))
-            checkbox(c, "Correct only where painted", c.state.brush.here_only,
+            checkbox(c, "Correct only where painted", c.settings.here_only,
                      "On frames to which the matte is propagated, what you change counts there "
                      "only, and the rest is propagated as before. Off: the whole frame becomes a "
                      "keyframe");

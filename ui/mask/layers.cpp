@@ -29,15 +29,28 @@ void other_regions(Ctx& c, const Region& region) {
     }
 }
 
+// How far the matte has come, by frames of the shot.
 void propagation_progress(Ctx& c) {
     const SessionView& v = c.view;
-    const float part = v.preview.total > 0 ? static_cast<float>(v.preview.done) /
-                                                 static_cast<float>(v.preview.total)
-                                           : 0;
-    progress_bar(c, part,
-                 "Propagating the matte, " + std::to_string(v.preview.done) + " of " +
-                     std::to_string(v.preview.total));
-    if (button(c, "Pause", {.icon = icons::kPause, .width = -1})) c.emit(PauseAnalysis{true});
+    const std::size_t reached = v.reached.size(), all = v.plate.frames.size();
+    if (reached == all) {
+        wrapped(c,
+                "Propagated through the shot. The strip below the ruler is pale where the "
+                "confidence is low.",
+                c.theme.quiet);
+        c.note("Propagated");
+        return;
+    }
+    progress_bar(
+        c, static_cast<float>(reached) / static_cast<float>(std::max<std::size_t>(1, all)),
+        "Propagated to " + std::to_string(reached) + " of " + std::to_string(all) + " frames");
+    c.note("Reached " + std::to_string(reached));
+    if (v.analysis_paused) {
+        if (button(c, "Continue", {.icon = icons::kPlay, .look = Look::kPrimary, .width = -1}))
+            c.emit(PauseAnalysis{false});
+    } else if (button(c, "Pause", {.icon = icons::kPause, .width = -1})) {
+        c.emit(PauseAnalysis{true});
+    }
 }
 
 // Direction and range of propagation.
@@ -132,20 +145,10 @@ void propagation_section(Ctx& c, const Region& region) {
         return section_gap(c);
     }
     propagation_controls(c, region, source);
-    if (v.preview.analysing) {
+    if (region.enabled)
         propagation_progress(c);
-    } else if (v.analysis_paused) {
-        if (button(c, "Continue", {.icon = icons::kPlay, .look = Look::kPrimary, .width = -1}))
-            c.emit(PauseAnalysis{false});
-    } else if (v.unready.contains(region.id)) {
-        wrapped(c, "Propagated in the background, the frames beside this one first.",
-                c.theme.quiet);
-    } else {
-        wrapped(c,
-                "Propagated through the shot. The strip below the ruler is pale where the "
-                "confidence is low.",
-                c.theme.quiet);
-    }
+    else
+        wrapped(c, "Propagated once the region is shown.", c.theme.quiet);
     section_gap(c);
 }
 

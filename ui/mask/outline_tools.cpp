@@ -24,7 +24,8 @@ void draw_outline(Ctx& c, const ViewMap& map, const Vec2* rubber) {
 
 void finish_outline(Ctx& c) {
     BrushState& b = c.state.brush;
-    if (b.outline.size() > 2) c.emit(FillPolygon{b.outline, b.outline_subtracts, b.here_only});
+    if (b.outline.size() > 2)
+        c.emit(FillPolygon{b.outline, b.outline_subtracts, c.settings.here_only});
     b.outline.clear();
     b.lassoing = false;
 }

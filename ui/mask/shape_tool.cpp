@@ -149,7 +149,7 @@ namespace {
 
 void emit_scribbles(Ctx& c) {
     ScribbleSelect out;
-    out.here_only = c.state.brush.here_only;
+    out.here_only = c.settings.here_only;
     for (const Scribble& one : c.state.scribbles.lines)
         (one.outside ? out.drop : out.keep).push_back(one.line);
     if (!out.keep.empty()) c.emit(std::move(out));

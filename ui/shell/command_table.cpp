@@ -41,6 +41,8 @@ void add_region(Ctx& c) {
         free_region_name(c.view.project, "Region " + std::to_string(c.view.project.next_region_id));
     region.color = static_cast<int>(c.view.project.regions.size()) % 7;
     c.edit(AddRegion{region, {}});
+    // What it needs first is a matte.
+    set_workspace(c.state, Workspace::kMask);
 }
 
 void add_edit_commands(std::vector<Command>& out) {
@@ -300,7 +302,7 @@ void add_tool_commands(std::vector<Command>& out) {
     const auto add_size = [&](const char* id, const char* name, const char* key, float factor) {
         out.push_back(command(id, "Tool", name, "", key, [factor](Ctx& c) {
             float& r = c.state.brush.brush.radius_px;
-            r = std::clamp(r * factor, 0.5f, 2000.0f);
+            r = std::clamp(r * factor, kLeastBrush_px, 2000.0f);
         }));
         out.back().repeats = true;
     };

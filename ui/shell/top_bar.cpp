@@ -247,8 +247,8 @@ void status_bar(Ctx& c, ImVec2 size) {
              t.px(180), t.accent_hover);
     }
     if (v.preview.analysing && v.preview.total > 0) {
-        cell("Analysing " + std::to_string(v.preview.done) + "/" + std::to_string(v.preview.total),
-             t.px(124), t.accent_hover);
+        cell("Analysing " + percent_text(v.preview.done, v.preview.total), t.px(124),
+             t.accent_hover);
     }
     const std::string last = !c.state.status.empty() ? c.state.status
                              : !v.notices.empty()    ? v.notices.back().text
@@ -278,7 +278,7 @@ void tool_strip(Ctx& c, ImVec2 size) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, t.px(4)});
     std::vector<const char*> tools = kTools[static_cast<int>(c.state.workspace)];
     if (c.state.workspace == Workspace::kMotion && is_zone_layer(c.view.matte_layer))
-        tools.insert(tools.end(), {"tool.brush", "tool.eraser", "tool.lasso"});
+        tools.insert(tools.end(), {"tool.brush", "tool.eraser", "tool.lasso", "tool.polygon"});
     for (const char* id : tools) {
         const Command* command = c.commands.find(id);
         if (icon_button(c, command->icon, command->name.c_str(), command->checked(c), id, true,

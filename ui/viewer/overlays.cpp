@@ -116,6 +116,31 @@ void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map) {
     draw_onion(c, list, map);
 }
 
+bool paints_over_plate(const Ctx& c) {
+    return c.state.workspace == Workspace::kMask && c.state.tool != Tool::kPan &&
+           c.state.viewer.compare == Compare::kResult && !c.view.layer;
+}
+
+void draw_matte_state(Ctx& c, ImDrawList& list, ImVec2 at) {
+    const SessionView& v = c.view;
+    if (c.state.workspace != Workspace::kMask && !paints_motion_zone(c)) return;
+    const std::vector<RegionMatteView>& layers = v.matte_layer == 0  ? v.mattes
+                                                 : v.matte_layer > 0 ? v.holdouts
+                                                                     : v.zones;
+    const auto painted = std::find_if(layers.begin(), layers.end(), [&](const auto& matte) {
+        return matte.region == v.selected && matte.layer == v.matte_layer;
+    });
+    if (painted == layers.end()) return;
+    const bool unreached = painted->kind == RegionMatteView::Kind::kUnreached;
+    if (!unreached && !painted->outdated) return;
+    std::string text =
+        unreached ? "The matte has not reached this frame" : "Matte before the last change";
+    text += v.analysis_paused ? "  ·  analysis paused" : "  ·  propagating…";
+    picture_pill(c, list, at, text, c.theme.warn,
+                 v.analysis_paused ? icons::kPause : icons::kTimer);
+    c.note("Matte state: " + text);
+}
+
 // Of a value, as a heat map with a legend.
 static bool has_scale(Overlay kind) {
     return kind != Overlay::kGrid && kind != Overlay::kSourceMap && kind != Overlay::kChecker &&

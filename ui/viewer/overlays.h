@@ -12,6 +12,10 @@ namespace weft::ui {
 void picture_pill(Ctx& c, ImDrawList& list, ImVec2 at, const std::string& text, ImU32 color,
                   const char* icon = nullptr);
 void draw_mattes(Ctx& c, ImDrawList& list, const ViewMap& map);
+/// The plate is shown instead of the result, as a mask is painted over it.
+[[nodiscard]] bool paints_over_plate(const Ctx& c);
+/// Says at `at` where the painted matte is not that of the document yet.
+void draw_matte_state(Ctx& c, ImDrawList& list, ImVec2 at);
 void draw_overlay(Ctx& c, ImDrawList& list, const ViewMap& map);
 /// The legend of a heat map.
 void draw_legend(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max);

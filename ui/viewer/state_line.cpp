@@ -20,7 +20,7 @@ struct State {
 void add_progress(const PreviewView& preview, State& to) {
     if (preview.total <= 0) return;
     to.part = static_cast<float>(preview.done) / static_cast<float>(preview.total);
-    to.text += " " + std::to_string(preview.done) + "/" + std::to_string(preview.total);
+    to.text += " " + percent_text(preview.done, preview.total);
     if (preview.seconds_left > 0) to.text += ", " + time_text(preview.seconds_left) + " left";
 }
 
@@ -47,7 +47,8 @@ State waiting_state(const Ctx& c) {
     const bool outdated = v.result_picture != nullptr;
     switch (v.preview.state) {
         case PreviewView::State::kOpening:
-            return {outdated ? "Updating…" : "Opening the shot…", t.warn, icons::kTimer};
+            return {outdated ? "Updating…" : "Plate  ·  Preparing the result…", t.warn,
+                    icons::kTimer};
         case PreviewView::State::kAnalysing: {
             if (v.analysis_paused)
                 return {
@@ -65,6 +66,15 @@ State waiting_state(const Ctx& c) {
     }
 }
 
+// A mask is painted over the plate, while the result is worked out.
+State plate_state(const Ctx& c) {
+    State out{"Plate", c.theme.text};
+    if (!c.view.preview.analysing || c.view.preview.total <= 0) return out;
+    out.text += "  ·  analysing";
+    add_progress(c.view.preview, out);
+    return out;
+}
+
 State state_of_picture(const Ctx& c) {
     const SessionView& v = c.view;
     const Theme& t = c.theme;
@@ -72,6 +82,7 @@ State state_of_picture(const Ctx& c) {
     if (v.matte_busy) return {"Updating matte…", t.warn, icons::kTimer};
     if (c.state.viewer.hold_original) return {"Plate", t.text};
     if (c.state.viewer.compare == Compare::kPlate) return {compared_name(c), t.text};
+    if (v.result_wanted && paints_over_plate(c)) return plate_state(c);
     if (!v.result_wanted) {
         std::string what = "Plate";
         if (const Region* region = v.selected_region())
@@ -90,8 +101,7 @@ State state_of_picture(const Ctx& c) {
         if (v.stages.proxy > 1)
             what += ", 1/" + std::to_string(v.stages.proxy) + " size while working";
         if (v.preview.analysing && v.preview.total > 0)
-            what += "  ·  analysing " + std::to_string(v.preview.done) + "/" +
-                    std::to_string(v.preview.total);
+            what += "  ·  analysing " + percent_text(v.preview.done, v.preview.total);
         return {what, t.good, icons::kCheck};
     }
     if (v.stages.provisional) return provisional_state(c);

@@ -31,7 +31,7 @@ void viewer_tools(Ctx& c, const ViewMap& map, bool hovered, bool active) {
         case Tool::kFlood:
             if (active && ImGui::IsMouseClicked(0) && c.state.viewer.pixel)
                 c.emit(FloodSelect{*c.state.viewer.pixel, c.state.brush.tolerance, subtracts(),
-                                   c.state.brush.here_only});
+                                   c.settings.here_only});
             return;
         case Tool::kPlace:
             return transform_tool(c, map, hovered, active);

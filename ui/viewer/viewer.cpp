@@ -29,6 +29,11 @@ PicturePtr shown_result(const Ctx& c) {
     return c.view.result_picture ? c.view.result_picture : c.view.plate_picture;
 }
 
+// What one paints a mask over: other regions' textures would hide the surface.
+PicturePtr shown_alone(const Ctx& c) {
+    return paints_over_plate(c) ? c.view.plate_picture : shown_result(c);
+}
+
 std::vector<Pane> panes_of(Ctx& c, ImVec2 min, ImVec2 max) {
     const SessionView& v = c.view;
     const ViewerState& s = c.state.viewer;
@@ -74,7 +79,7 @@ std::vector<Pane> panes_of(Ctx& c, ImVec2 min, ImVec2 max) {
                  {},
                  "",
                  false}};
-    return {{whole, shown_result(c), nullptr, {}, "", true}};
+    return {{whole, shown_alone(c), nullptr, {}, "", true}};
 }
 
 void read_pixel(Ctx& c, const ViewMap& map, const PicturePtr& picture, bool hovered) {
@@ -269,13 +274,13 @@ void viewer(Ctx& c, ImVec2 size) {
                          pane.label, t.text);
         }
     }
-    read_pixel(c, map,
-               c.view.result_picture && s.compare != Compare::kPlate ? c.view.result_picture
-                                                                     : c.view.plate_picture,
+    read_pixel(c, map, s.compare != Compare::kPlate ? shown_alone(c) : c.view.plate_picture,
                hovered);
     navigate(c, map, hovered, active, wiping);
     if (panes.size() == 1) draw_wipe(c, list, map);
     if (!wiping && !take_back_drag(c)) viewer_tools(c, map, hovered, active);
+    if (panes.front().mattes && s.mattes_shown)
+        draw_matte_state(c, list, {min.x + t.px(10), min.y + t.px(10)});
     draw_legend(c, list, min, max);
     draw_provenance(c, list, map, hovered);
     failure(c, list, min, max);

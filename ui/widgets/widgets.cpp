@@ -42,6 +42,10 @@ std::string number_text(double value, int decimals) {
     return text[0] == '-' && std::strtod(text, nullptr) == 0 ? text + 1 : text;
 }
 
+std::string percent_text(int done, int total) {
+    return std::to_string(static_cast<int>(100.0 * done / total)) + "%";
+}
+
 std::string time_text(double seconds) {
     char text[48];
     const auto whole = static_cast<long long>(std::max(0.0, seconds) + 0.5);

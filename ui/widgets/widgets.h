@@ -83,6 +83,8 @@ void text_in(ImDrawList& list, ImFont* font, ImVec2 min, ImVec2 max, ImU32 color
 void icon_in(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max, ImU32 color, const char* icon);
 /// "1:02" or "3 h 12 min".
 [[nodiscard]] std::string time_text(double seconds);
+/// "33%": steps of work are not frames, so their number tells nobody anything. `total` above 0.
+[[nodiscard]] std::string percent_text(int done, int total);
 [[nodiscard]] std::string bytes_text(double bytes);
 /// A label without its "##" suffix, which only distinguishes widgets.
 [[nodiscard]] std::string visible(const char* label);

@@ -94,8 +94,7 @@ void tour(Ctx& c) {
     ImGui::SameLine(width - t.px(184));
     ImGui::SetCursorPosY(h - t.px(44));
     const int before = step;
-    const bool escape = ImGui::IsKeyPressed(256) && !ImGui::GetIO().WantTextInput &&
-                        ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows);
+    const bool escape = ImGui::IsKeyPressed(256) && !ImGui::GetIO().WantTextInput;
     if (button(c, "End", {.look = Look::kQuiet, .width = t.px(64)}) || escape) step = -1;
     ImGui::SameLine();
     if (button(c, before + 1 < kCount ? "Next" : "Done",
