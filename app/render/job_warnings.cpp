@@ -1,8 +1,12 @@
 #include "app/render/job_warnings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <string_view>
+#include <utility>
 
 #include "app/shot/frame_plan.h"
 #include "engine/core/setting.h"
@@ -14,18 +18,64 @@ std::string pixels_text(std::int64_t count) {
     return count == 1 ? "1 pixel" : fmt::format("{} pixels", count);
 }
 
-void warn_above_one(const std::vector<FrameResult>& frames, std::vector<std::string>& warnings) {
+bool any_above(const RgbNumbers& numbers, double limit) {
+    return std::max({numbers.r, numbers.g, numbers.b}) > limit;
+}
+
+bool raises_light(const LightParams& light) {
+    return light.strength > 1 ||
+           std::any_of(
+               light.strength_keys.keys.begin(), light.strength_keys.keys.end(),
+               [](const NumberKey& key) { return !key.numbers.empty() && key.numbers[0] > 1; });
+}
+
+// The settings of a region that the artist has made it brighter with than it is by itself.
+void add_brightening(const Region& region, std::vector<std::string_view>& settings) {
+    const GradeParams& grade = region.grade;
+    const LightParams& light = region.light;
+    const bool brightest_zone =
+        std::any_of(region.zones->begin(), region.zones->end(), [](const Zone& zone) {
+            return zone.kind == ZoneKind::kLight && (zone.value > 1 || !zone.value_keys.empty());
+        });
+    const std::pair<bool, std::string_view> found[] = {
+        {grade.match < 1, "grade.match"},
+        {grade.exposure > 0, "grade.exposure"},
+        {any_above(grade.multiply, 1), "grade.multiply"},
+        {grade.contrast > 1, "grade.contrast"},
+        {grade.gamma > 1, "grade.gamma"},
+        {any_above(grade.offset, 0), "grade.offset"},
+        {light.source != LightSource::kPlate && light.source != LightSource::kNone,
+         setting::kLightSource},
+        {raises_light(light), "light.strength"},
+        {light.highlights > 0, setting::kHighlights},
+        {light.exact, setting::kLightExact},
+        {brightest_zone, setting::kZone}};
+    for (const auto& [brightens, key] : found)
+        if (brightens && std::find(settings.begin(), settings.end(), key) == settings.end())
+            settings.push_back(key);
+}
+
+// By itself a texture has the exposure of the plate, and its highlights roll off like a camera's.
+void warn_above_one(const std::vector<FrameResult>& frames, const Project& project,
+                    std::vector<std::string>& warnings) {
     std::int64_t pixels = 0;
     std::vector<int> where;
     for (const FrameResult& f : frames) {
         pixels += f.above_one;
         if (f.above_one > 0) where.push_back(f.frame);
     }
-    if (where.empty()) return;
+    std::vector<std::string_view> settings;
+    for (const auto& region : project.regions)
+        if (region->enabled) add_brightening(*region, settings);
+    if (where.empty() || settings.empty()) return;
+    std::vector<std::string> names;
+    for (const std::string_view key : settings)
+        if (std::string name = setting_name({key}); !name.empty()) names.push_back(std::move(name));
     warnings.push_back(
         fmt::format("{} on {} would be brighter than the output can hold; their "
-                    "highlights were rolled off.",
-                    pixels_text(pixels), frames_text(where)));
+                    "highlights were rolled off. Lower what brightens the texture{}.",
+                    pixels_text(pixels), frames_text(where),
+                    names.empty() ? "" : fmt::format(" ({})", fmt::join(names, ", "))));
 }
 
 // Lists the first few frames with their counts.
@@ -75,9 +125,10 @@ std::string unsure_highlights_text(const std::string& region) {
         region, by({{setting::kLayers, "gloss"}}), by({{setting::kHighlights}}));
 }
 
-std::vector<std::string> warnings_of(const std::vector<FrameResult>& frames) {
+std::vector<std::string> warnings_of(const std::vector<FrameResult>& frames,
+                                     const Project& project) {
     std::vector<std::string> warnings;
-    warn_above_one(frames, warnings);
+    warn_above_one(frames, project, warnings);
     warn_nonfinite(frames, warnings);
     warn_untouched(frames, warnings);
     return warnings;

@@ -213,8 +213,8 @@ void add_warnings(JobRun& job) {
                     [](const FrameResult& f) { return !f.untouched && !f.skipped; });
     if (!some_touched) job.empty_references.clear();
     for (const std::vector<std::string>& lines :
-         {job.empty_references, warnings_of(result.frames), job.setup.backend->remarks(),
-          job.store->remarks()}) {
+         {job.empty_references, warnings_of(result.frames, job.shot().project),
+          job.setup.backend->remarks(), job.store->remarks()}) {
         result.warnings.insert(result.warnings.end(), lines.begin(), lines.end());
     }
 }

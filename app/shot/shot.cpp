@@ -144,8 +144,10 @@ class ShotOpener {
         plan.out_from_working = out_from_working;
         plan.out_from_plate = out_from_plate;
         working_from_display_ = working_from_display;
-        plan.exposure_greys = {working_grey(ExposureGreys::kOldSurface),
-                               working_grey(ExposureGreys::kBright)};
+        plan.exposure_greys = {
+            working_grey(ExposureGreys::kOldSurface), working_grey(ExposureGreys::kBright),
+            working_grey(ExposureGreys::kWhite), working_grey(ExposureGreys::kWhitest),
+            shot_.plate->display_encoded() && plate.name != kCineon};
         return {};
     }
 

@@ -33,4 +33,9 @@ void composite_over(ImageView<float, 3> out, ViewF3 plate, ViewF3 surface, ViewU
 /// matte 0 are unchanged.
 [[nodiscard]] long roll_off(ImageView<float, 3> rgb, ViewU8x1 matte, float knee = 0.9f);
 
+/// The knee from which roll_off() brings `peak` (linear light) to 250 of 255 sRGB codes: 0.9 for
+/// peaks up to 1, lower for brighter ones, so that what lies between keeps its steps; at least 0.5,
+/// which peaks from 5.5 on have.
+[[nodiscard]] float roll_off_knee(float peak);
+
 }  // namespace weft

@@ -10,6 +10,8 @@ namespace weft {
 namespace {
 
 constexpr int kBand = 16;
+constexpr float kBelowWhite = 0.045f;  // linear light that code 250 lacks
+constexpr float kMostKnee = 0.9f, kLeastKnee = 0.5f;
 
 // NaN does not count.
 float highest_of(const float* p) {
@@ -74,6 +76,13 @@ long roll_off(ImageView<float, 3> rgb, ViewU8x1 matte, float knee) {
     for (const long n : exceeded)
         total += n;
     return total;
+}
+
+// With u = 1 − knee, the peak p lacks u² / (p − 1 + 2 u) of white after the roll-off.
+float roll_off_knee(float peak) {
+    if (!(peak > 1)) return kMostKnee;
+    const float room = kBelowWhite + std::sqrt(kBelowWhite * (kBelowWhite + peak - 1));
+    return std::clamp(1 - room, kLeastKnee, kMostKnee);
 }
 
 }  // namespace weft

@@ -41,54 +41,70 @@ Expected<TexturePlane> kept_texture(const ShotPlan& plan, const RegionPlan& regi
     return plane;
 }
 
+struct ReferenceView {
+    ImageF3 working;  // the plate
+    Matte visible;
+};
+
 // S₀, the plate's median shading inside the matte on the reference frame, and the light's colour
-// there. Painted light is relative to 1.
+// there. Painted light is relative to 1. Returns the shading.
+Expected<Shading> take_plate_light(const ShotSource& source, const ShotPlan& plan,
+                                   const AnalysisStore& store, int index, int frame,
+                                   const ReferenceView& view, RegionScene& scene) {
+    const RegionPlan& region = plan.regions[static_cast<std::size_t>(index)];
+    WEFT_TRY(shading, region_shading(source, region, store, index, frame, view.working));
+    scene.reference_shading = median_shading(*shading, view.visible);
+    scene.reference_range = {light_range(view.working, {}),
+                             light_range(view.working, view.visible)};
+    if (region.tints()) {
+        scene.reference_colour = region.cast ? light_colour(view.working, view.visible, *shading)
+                                             : daylight_colour(find_daylight(view.working));
+        scene.tint = region.cast ? plate_tint(view.working) : likely_tint(view.working);
+    }
+    if (region.highlights > 0) {
+        scene.colours = surface_colours(view.working, view.visible, likely_tint(view.working));
+        WEFT_TRY(still, still_surface(plan, store, index));
+        scene.still = std::move(still);
+    }
+    return std::move(*shading);
+}
+
 Status take_reference_light(const ShotSource& source, const ShotPlan& plan,
                             const AnalysisStore& store, int index, int frame, RegionScene& scene) {
     const RegionPlan& region = plan.regions[static_cast<std::size_t>(index)];
     const bool from_plate =
         region.light_source == LightSource::kPlate &&
         (region.estimates_light() || region.light_pass != RegionPlan::Pass::kNone);
-    if (!from_plate) return {};
-    WEFT_TRY(plate, source.plate(frame));
-    WEFT_TRY(working, working_plate(source, plan, frame, *plate));
-    WEFT_TRY(shading, region_shading(source, region, store, index, frame, working));
-    WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
-    WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
-    const Matte visible = without_holdout(extent, holdout);
-    scene.reference_shading = median_shading(*shading, visible);
-    scene.reference_range = {light_range(working, {}), light_range(working, visible)};
-    if (region.tints()) {
-        scene.reference_colour = region.cast ? light_colour(working, visible, *shading)
-                                             : daylight_colour(find_daylight(working));
-        scene.tint = region.cast ? plate_tint(working) : likely_tint(working);
-    }
-    if (region.highlights > 0) {
-        scene.colours = surface_colours(working, visible, likely_tint(working));
-        WEFT_TRY(still, still_surface(plan, store, index));
-        scene.still = std::move(still);
-    }
-    return {};
-}
-
-Status take_exposure(const ShotSource& source, const ShotPlan& plan, const AnalysisStore& store,
-                     int index, int frame, RegionScene& scene) {
-    const RegionPlan& region = plan.regions[static_cast<std::size_t>(index)];
     // A light that is used unchanged has the plate's exposure in it.
-    if (!(region.match > 0) || region.exact_light) return {};
+    const bool matches = region.match > 0 && !region.exact_light;
+    if (!from_plate && !matches) return {};
     WEFT_TRY(plate, source.plate(frame));
     WEFT_TRY(working, working_plate(source, plan, frame, *plate));
     WEFT_TRY(extent, extent_matte(source, plan, store, index, frame));
     WEFT_TRY(holdout, holdout_matte(source, plan, store, index, frame));
-    scene.exposure = plate_exposure(working, without_holdout(extent, holdout), plan.exposure_greys);
+    const ReferenceView view{std::move(working), without_holdout(extent, holdout)};
+    std::optional<Shading> shading;
+    if (from_plate) {
+        WEFT_TRY(found, take_plate_light(source, plan, store, index, frame, view, scene));
+        shading = std::move(found);
+    }
+    if (matches) {
+        scene.exposure = plate_exposure(view.working, view.visible, shading ? &*shading : nullptr,
+                                        scene.reference_shading, plan.exposure_greys);
+    }
     return {};
 }
 
 }  // namespace
 
+float fullest_white(const RegionPlan& region, const RegionScene& scene) {
+    const PlateExposure& found = scene.exposure;
+    return std::pow(found.white, region.match) * (found.fullest / found.white);
+}
+
 Grade grade_on(const RegionPlan& region, const RegionScene& scene) {
     Grade grade = region.grade;
-    const float matched = std::pow(scene.exposure, region.match);
+    const float matched = std::pow(scene.exposure.white, region.match);
     for (float& channel : grade.multiply)
         channel *= matched;
     return grade;
@@ -208,7 +224,6 @@ Expected<RegionScene> make_scene(const ShotSource& source, const ShotPlan& plan,
     }
     const int lit = region.light_reference();
     WEFT_CHECK_OK(take_reference_light(source, plan, store, region_index, lit, scene));
-    WEFT_CHECK_OK(take_exposure(source, plan, store, region_index, lit, scene));
     if (is_focus_followed(region)) {
         WEFT_TRY(extent, extent_matte(source, plan, store, region_index, reference));
         take_texture_focus(plan, region, extent, scene);

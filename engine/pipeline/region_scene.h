@@ -12,6 +12,7 @@
 #include "engine/core/progress.h"
 #include "engine/form/form_map.h"
 #include "engine/lighting/highlights.h"
+#include "engine/lighting/plate_exposure.h"
 #include "engine/lighting/plate_transfer.h"
 #include "engine/lighting/white_veil.h"
 #include "engine/pipeline/analysis_store.h"
@@ -31,7 +32,7 @@ struct RegionScene {
     float reference_shading = 1;        ///< S₀
     SurfaceLightRange reference_range;  ///< Of the frame that S₀ is from; light of the plate only.
     std::optional<Shading> picture_light;
-    float exposure = 1;            ///< plate_exposure() of the reference frame.
+    PlateExposure exposure;        ///< Of the reference frame.
     LightColour reference_colour;  ///< Of the plate's light on the reference frame.
     std::array<float, 3> tint{};   ///< plate_tint() or likely_tint() of the reference frame.
     SurfaceColours colours;        ///< Of the old surface there, where its highlights are kept.
@@ -58,6 +59,9 @@ struct RegionScene {
 
 /// The region's grade, on the plate's exposure.
 [[nodiscard]] Grade grade_on(const RegionPlan& region, const RegionScene& scene);
+/// What a white texture is in the fullest light on the region, before the artist's own grade; 1
+/// where the exposure is not matched.
+[[nodiscard]] float fullest_white(const RegionPlan& region, const RegionScene& scene);
 
 /// The size of the plane that a region's sample is grown to: somewhat more than the plate at the
 /// placement's scale, between 512 and 4096 texels a side. It joins at its borders and repeats. It

@@ -24,8 +24,6 @@
 namespace weft {
 namespace {
 
-constexpr float kKnee = 0.9f;  // of the roll-off
-
 enum class Place { kDevice, kCpu };
 
 // A region's mattes, without its holdouts.
@@ -115,6 +113,7 @@ class FrameRenderer {
     std::optional<FrameLayers> layers_;
     std::optional<PlateViews> views_;
     bool lit_ = false;
+    float peak_ = 1;  // fullest_white() of all regions
     std::unique_ptr<FrameCanvas> device_;
     Recti device_box_;  // where the canvas on the device differs from canvas_
     bool device_failed_ = false;
@@ -284,6 +283,8 @@ Status FrameRenderer::add_on_device(int index, const RegionSurface& surface, con
 }
 
 Status FrameRenderer::add(int index, const RegionScene& scene) {
+    // Of all regions, also of those that are not in this frame: the roll-off is the shot's.
+    peak_ = std::max(peak_, fullest_white(region_of(plan_, index), scene));
     WEFT_TRY(mattes, composite_mattes(index));
     const Matte& matte = mattes.shown;
     if (matte_bounds(matte).empty()) return {};
@@ -332,13 +333,13 @@ Expected<RenderedFrame> FrameRenderer::finish() {
         out.layers = std::move(layers_);
     }
     const bool rolls_off = lit_ && plan_.display_referred;
+    const auto knee = rolls_off ? std::optional(roll_off_knee(peak_)) : std::nullopt;
     if (device_) {
-        const auto knee = rolls_off ? std::optional(kKnee) : std::nullopt;
         WEFT_TRY(above_one, of_device(device_->finish(knee, canvas_)));
         out.above_one = above_one;
-    } else if (rolls_off) {
+    } else if (knee) {
         out.above_one =
-            roll_off(canvas_.view().crop(rendered_), touched_.view().crop(rendered_), kKnee);
+            roll_off(canvas_.view().crop(rendered_), touched_.view().crop(rendered_), *knee);
     }
     out.pixels = plate_in(*plate_, alpha_, *plan_.out_from_plate);
     if (!rendered_.empty()) plan_.out_from_working->apply(canvas_.view().crop(rendered_));

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "engine/color/color_space.h"
 #include "engine/composite/composite.h"
 #include "engine/core/parallel.h"
 
@@ -203,6 +204,20 @@ TEST(CompositeOver, TakesTheTextureWhereThePlateIsNotANumber) {
     for (int c = 0; c < 3; ++c)
         EXPECT_EQ(out.at(0, 0, c), 0.6f);
     EXPECT_EQ(out.at(1, 0, 1), 0.6f);
+}
+
+TEST(RollOff, ItsKneeBringsThePeakBelowWhite) {
+    EXPECT_EQ(roll_off_knee(0.3f), 0.9f);
+    EXPECT_EQ(roll_off_knee(1), 0.9f);
+    EXPECT_EQ(roll_off_knee(40), 0.5f);
+    for (const float peak : {1.2f, 1.5f, 2.5f, 4.0f}) {
+        ImageF3 rgb(2, 1, peak);
+        rgb.at(0, 0, 0) = rgb.at(0, 0, 1) = rgb.at(0, 0, 2) = 0.8f * peak;
+        EXPECT_EQ(roll_off(rgb, Matte(Size{2, 1}, 255), roll_off_knee(peak)),
+                  0.8f * peak > 1 ? 2 : 1);
+        EXPECT_NEAR(255 * linear_to_srgb(rgb.at(1, 0, 0)), 250, 0.3f) << peak;
+        EXPECT_LT(255 * linear_to_srgb(rgb.at(0, 0, 0)), 249) << peak << ": steps are kept";
+    }
 }
 
 TEST(RollOff, IsTheIdentityUpToTheKneeAndStaysBelowOne) {

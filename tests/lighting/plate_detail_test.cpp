@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/lighting/plate_exposure.h"
-
 namespace weft {
 namespace {
 
@@ -97,25 +95,6 @@ TEST(KeepPlateDetail, LeavesOutWhatTheLightHasAlready) {
     ImageF3 texture(kBox.size(), 0.5f);
     keep_plate_detail(texture, {kBox.x0, kBox.y0}, creased(), inside, &all, 1);
     EXPECT_NEAR(texture.at(100, 60, 0), 0.5f, 0.02f);
-}
-
-TEST(PlateExposure, FollowsTheSurfaceAndThePlateHalfWay) {
-    const auto of = [](float surface, float rest) {
-        ImageF3 plate(kPlate, rest);
-        for (int y = kBox.y0; y < kBox.y1; ++y)
-            for (int x = 3 * kBox.x0; x < 3 * kBox.x1; ++x)
-                plate.row(y)[x] = surface;
-        return plate_exposure(plate, box_matte());
-    };
-    EXPECT_NEAR(of(0.25f, 0.6f), 1.0f, 0.02f) << "an ordinary shot";
-    const float night = of(0.01f, 0.01f), dim = of(0.05f, 0.6f), snow = of(0.8f, 0.8f);
-    EXPECT_NEAR(night, std::cbrt(0.01f / 0.25f * 0.01f / 0.6f), 0.005f);
-    EXPECT_GT(dim, night);
-    EXPECT_LT(dim, 1.0f);
-    EXPECT_GT(snow, 1.4f);
-    EXPECT_LT(snow, 4.0f);
-    EXPECT_GE(of(0, 0), 1.0f / 16);
-    EXPECT_EQ(plate_exposure(ImageF3(kPlate, 0.02f), Matte(kPlate)), 1.0f) << "nothing is shown";
 }
 
 }  // namespace

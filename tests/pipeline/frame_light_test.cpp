@@ -149,6 +149,31 @@ TEST(FrameLight, TheGradeAndTheMatchAreOnTheTexture) {
     EXPECT_NEAR(linear_at(rendered_wall(region), kBeside), std::sqrt(before * matched), 2e-3f);
 }
 
+// A white cloth with soft folds in front of a window: its paint reflects 0.8.
+TEST(FrameLight, WhiteIsAsBrightAsThePlatesAndKeepsItsFolds) {
+    Wall shot;
+    auto plate = std::make_shared<ImageF3>(kShotSize, 1.0f);
+    const auto fold_at = [](int x) { return 0.6f + 0.12f * std::sin(static_cast<float>(x) / 9); };
+    for (int y = 0; y < kShotSize.height; ++y)
+        for (int x = 0; x < kShotSize.width - 12; ++x)
+            std::fill_n(plate->pixel(x, y), 3, linear_to_srgb(fold_at(x)));
+    for (auto& [frame, shown] : shot.plates)
+        shown = plate;
+    RegionPlan region = plate_lit();
+    region.texture = flat_texture({0.97f, 0.97f, 0.97f});
+    region.match = 1;
+    const RenderedFrame frame = frame_of(shot, make_plan(region, kLitFrame, kLitFrame));
+    float darkest = 1, brightest = 0;
+    for (int x = kRegionBox.x0 + 8; x < kRegionBox.x1 - 8; ++x) {
+        const float code = frame.pixels.at(x, 60, 1);
+        darkest = std::min(darkest, code), brightest = std::max(brightest, code);
+    }
+    EXPECT_LT(brightest, 250 / 255.0f);
+    EXPECT_GT(brightest, linear_to_srgb(0.72f));
+    EXPECT_GT(srgb_to_linear(brightest) / srgb_to_linear(darkest), 0.85f * 0.72f / 0.48f);
+    EXPECT_EQ(frame.above_one, 0);
+}
+
 TEST(FrameLight, OpacityAndBlendModeGoOverTheOldSurface) {
     RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
     const Wall shot;

@@ -25,8 +25,8 @@ FrameResult frame(int number) {
 }
 
 TEST(JobWarnings, NoneForAPlainJob) {
-    EXPECT_THAT(warnings_of({frame(1), frame(2)}), IsEmpty());
-    EXPECT_THAT(warnings_of({}), IsEmpty());
+    EXPECT_THAT(warnings_of({frame(1), frame(2)}, {}), IsEmpty());
+    EXPECT_THAT(warnings_of({}, {}), IsEmpty());
 }
 
 TEST(JobWarnings, NaNIsReportedByFrameAndCount) {
@@ -34,7 +34,7 @@ TEST(JobWarnings, NaNIsReportedByFrameAndCount) {
     frames[0].nonfinite = 1;
     frames[2].nonfinite = 12;
     frames[2].filled = 10;
-    EXPECT_THAT(warnings_of(frames),
+    EXPECT_THAT(warnings_of(frames, {}),
                 ElementsAre(AllOf(HasSubstr("frame 7 (1 pixel), frame 9 (12 pixels)"),
                                   HasSubstr("10 in a matte"), HasSubstr("3 outside"),
                                   Not(HasSubstr("frame 8")))));
@@ -46,10 +46,31 @@ TEST(JobWarnings, ALongListIsShortened) {
         frames.push_back(frame(k));
         frames.back().nonfinite = 1;
     }
-    const auto warnings = warnings_of(frames);
+    const auto warnings = warnings_of(frames, {});
     EXPECT_THAT(warnings,
                 ElementsAre(AllOf(HasSubstr("and 992 more frames"), HasSubstr("1000 outside"))));
     EXPECT_LT(warnings[0].size(), 400u);
+}
+
+TEST(JobWarnings, BrighterThanTheOutputOnlyByTheArtistsOwnSettings) {
+    std::vector<FrameResult> frames{frame(1), frame(2)};
+    frames[1].above_one = 12;
+    Project project;
+    project.regions.emplace_back(Region{});
+    EXPECT_THAT(warnings_of(frames, project), IsEmpty());
+    const auto with = [&](auto&& set) {
+        Project changed = project;
+        changed.regions[0] = changed.regions[0].with(set);
+        return warnings_of(frames, changed);
+    };
+    EXPECT_THAT(with([](Region& r) { r.grade.exposure = 1; }),
+                ElementsAre(AllOf(HasSubstr("12 pixels on frame 2"), HasSubstr("grade.exposure"))));
+    EXPECT_THAT(with([](Region& r) { r.light.highlights = 1; }),
+                ElementsAre(HasSubstr("light.highlights")));
+    EXPECT_THAT(with([](Region& r) { r.grade.exposure = -1; }), IsEmpty());
+    EXPECT_THAT(with([](Region& r) { r.enabled = false, r.grade.exposure = 1; }), IsEmpty());
+    frames[1].above_one = 0;
+    EXPECT_THAT(with([](Region& r) { r.grade.exposure = 1; }), IsEmpty());
 }
 
 class HighlightsTest : public ShotTest {};
@@ -82,7 +103,7 @@ TEST(JobWarnings, FramesWithAnEmptyMatte) {
     std::vector<FrameResult> frames{frame(1), frame(2), frame(3), frame(5)};
     for (const std::size_t k : {0, 1, 3})
         frames[k].untouched = true;
-    EXPECT_THAT(warnings_of(frames), ElementsAre(HasSubstr("empty on frames 1-2,5:")));
+    EXPECT_THAT(warnings_of(frames, {}), ElementsAre(HasSubstr("empty on frames 1-2,5:")));
 }
 
 }  // namespace
