@@ -14,14 +14,15 @@ namespace {
 
 std::function<Expected<Matte>(int)> mattes_of(const Project& absolute, const Region& region,
                                               const ShownPlate& plate, const Preview& preview) {
-    return [&preview, source = *region.matte, plate = plate.reader(), drawn = plate.drawn(),
-            id = region.id,
-            key = propagation_key(absolute, region, 0)](int frame) -> Expected<Matte> {
-        if (!source.shape.empty()) return drawn->matte(source.shape, source.select.invert, frame);
-        if (source.files.empty()) return preview.propagated_matte({id, 0, frame, key});
-        WEFT_TRY(files, matte_files(source.files, *plate));
-        return files.read(frame, source.select, plate->size());
-    };
+    return
+        [&preview, source = *region.matte, plate = plate.reader(), drawn = plate.drawn(),
+         id = region.id, key = propagation_key(absolute, region, 0)](int frame) -> Expected<Matte> {
+            if (!source.shape.empty())
+                return drawn->matte(source.shape, source.select.invert, frame);
+            if (source.files.empty()) return preview.propagated_matte({id, 0, frame, key});
+            WEFT_TRY(files, matte_files(source.files, *plate));
+            return files.read(frame, source.select, plate->size());
+        };
 }
 
 }  // namespace
