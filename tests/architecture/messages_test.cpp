@@ -64,9 +64,11 @@ TEST(Messages, NoStringHoldsAPlaceholder) {
             const std::string path = entry.path().lexically_relative(root).generic_string();
             if (!path.ends_with(".cpp") && !path.ends_with(".h")) continue;
             std::ifstream stream(entry.path());
-            for (std::string line; std::getline(stream, line);)
-                if (line.find('{') != std::string::npos && line.find('"') < line.find("//"))
-                    EXPECT_FALSE(std::regex_search(line, placeholder)) << path << ": " << line;
+            for (std::string line; std::getline(stream, line);) {
+                if (line.find('{') == std::string::npos || line.find('"') > line.find("//"))
+                    continue;
+                EXPECT_FALSE(std::regex_search(line, placeholder)) << path << ": " << line;
+            }
         }
     }
 }
