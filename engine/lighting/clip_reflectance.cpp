@@ -10,7 +10,6 @@
 #include "engine/lighting/light_doubt.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/pattern_period.h"
-#include "engine/lighting/surface_pattern.h"
 
 namespace weft {
 namespace {
@@ -214,25 +213,21 @@ ClipReflectance ReflectanceGatherer::finish() {
     }
     ImageF1 light = log_shading(still, options_);
     out.value = difference_of(still.luma, light, out.confidence);
-    const float pattern_px = std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_));
-    const float presence = surface_pattern(difference_of(still.luma, still.paint, still.weight),
-                                           still.weight, pattern_px)
-                               .presence;
     const int period = pattern_period_px(out.value, out.confidence, kLongestPeriod);
-    if (period > 0 && presence > 0) {
+    if (period > 0) {
         // Here larger features of the pattern can be separated from light than in a single frame:
         // up to the pattern's period.
         const ImageF1 wide = light_beyond_period(light, out.confidence, out.value,
                                                  static_cast<float>(period) * kPeriods);
-        const float share =
-            presence * remains_share(difference_of(light, wide, out.confidence), out.value);
+        const float share = remains_share(difference_of(light, wide, out.confidence), out.value);
         for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i)
             light.data()[i] += share * (wide.data()[i] - light.data()[i]);
         out.value = difference_of(still.luma, light, out.confidence);
     }
     // What moves has been told from paint by that; the light that never does has not.
-    out.doubt = light_doubt(light, difference_of(out.value, still.paint, out.confidence),
-                            out.confidence, pattern_px);
+    out.doubt =
+        light_doubt(light, difference_of(out.value, still.paint, out.confidence), out.confidence,
+                    std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_)));
     return out;
 }
 
