@@ -345,8 +345,6 @@ void mask_inspector(Ctx& c) {
     if (section(c, "Matte")) {
         const PanelName panel(c, "Matte");
         matte_source_card(c, *region);
-        if (region->motion.track.empty() && region->motion.files.empty())
-            region_parameter(c, *region, "temporal.surface", "Surface");
         section_gap(c);
     }
     const MatteSource painted = c.view.painted_source();
