@@ -90,8 +90,7 @@ TEST_F(PaintedLayers, KeysOfALayerAreSetAndRemovedThere) {
         return h.size() == 1 && h[0].keep;
     })) << "a stroke on a frame that was not reached is refused";
     robot->stroke({at(52, 20), at(52, 44)});
-    robot->frames(3);
-    ASSERT_THAT(region().holdouts->front().keyframes, SizeIs(2));
+    ASSERT_TRUE(wait([&] { return region().holdouts->front().keyframes.size() == 2; }));
     EXPECT_TRUE(session->view().marks[1].matte_key);
     ASSERT_TRUE(robot->click("Matte/Remove keyframe"));
     robot->frames(2);
