@@ -89,6 +89,7 @@ TEST_F(PaintedLayers, KeysOfALayerAreSetAndRemovedThere) {
         const auto& h = session->view().holdouts;
         return h.size() == 1 && h[0].keep;
     })) << "a stroke on a frame that was not reached is refused";
+    robot->frames(2);
     robot->stroke({at(52, 20), at(52, 44)});
     ASSERT_TRUE(wait([&] { return region().holdouts->front().keyframes.size() == 2; }));
     EXPECT_TRUE(session->view().marks[1].matte_key);

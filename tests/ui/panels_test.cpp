@@ -173,6 +173,7 @@ TEST_F(PanelTest, TheRenderButtonSubmitsTheFramesThatItNames) {
 
 TEST_F(PanelTest, AFormThatCannotBeUsedIsSaidBeforeItIsRendered) {
     view.form_problems[view.project.regions[0]->id] = "The shape does not lie on the region.";
+    robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Jobs"));
     robot->frames(2);
     EXPECT_NE(robot->find("Export/Form problem"), nullptr);
