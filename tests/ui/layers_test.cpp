@@ -85,13 +85,16 @@ TEST_F(PaintedLayers, KeysOfALayerAreSetAndRemovedThere) {
     ASSERT_THAT(*region().holdouts, SizeIs(1));
     session->act(GoToFrame{2});
     settings.here_only = false;
+    // A stroke on a frame to which the layer was not propagated yet is refused.
     ASSERT_TRUE(wait([&] {
         const auto& h = session->view().holdouts;
-        return h.size() == 1 && h[0].keep;
-    })) << "a stroke on a frame that was not reached is refused";
+        return h.size() == 1 && h[0].frame == 2 &&
+               h[0].kind == RegionMatteView::Kind::kPropagated && h[0].keep;
+    }));
     robot->frames(2);
     robot->stroke({at(52, 20), at(52, 44)});
-    ASSERT_TRUE(wait([&] { return region().holdouts->front().keyframes.size() == 2; }));
+    robot->frames(3);
+    ASSERT_THAT(region().holdouts->front().keyframes, SizeIs(2));
     EXPECT_TRUE(session->view().marks[1].matte_key);
     ASSERT_TRUE(robot->click("Matte/Remove keyframe"));
     robot->frames(2);
