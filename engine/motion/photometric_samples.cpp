@@ -309,8 +309,8 @@ RegistrationLead registration_lead(const RegistrationPicture& anchor,
         leads.push_back(cell[0] - cell[1]);
     if (left_out > 0) {
         const std::size_t kept =
-            cells.size() - static_cast<std::size_t>(left_out * static_cast<double>(cells.size()));
-        std::nth_element(leads.begin(), leads.begin() + static_cast<std::ptrdiff_t>(kept) - 1,
+            leads.size() - static_cast<std::size_t>(left_out * static_cast<double>(leads.size()));
+        std::nth_element(leads.begin(), leads.begin() + static_cast<std::ptrdiff_t>(kept),
                          leads.end());
         leads.resize(kept);
     }
