@@ -1,7 +1,6 @@
 #include "app/render/job_warnings.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -30,7 +29,7 @@ bool raises_light(const LightParams& light) {
 }
 
 // The settings of a region that the artist has made it brighter with than it is by itself.
-void add_brightening(const Region& region, std::vector<std::string_view>& settings) {
+void add_brightening(const Region& region, std::vector<SettingRef>& settings) {
     const GradeParams& grade = region.grade;
     const LightParams& light = region.light;
     const bool brightest_zone =
@@ -50,9 +49,11 @@ void add_brightening(const Region& region, std::vector<std::string_view>& settin
         {light.highlights > 0, setting::kHighlights},
         {light.exact, setting::kLightExact},
         {brightest_zone, setting::kZone}};
-    for (const auto& [brightens, key] : found)
-        if (brightens && std::find(settings.begin(), settings.end(), key) == settings.end())
-            settings.push_back(key);
+    for (const auto& [brightens, key] : found) {
+        const auto is_it = [&, name = key](const SettingRef& known) { return known.key == name; };
+        if (brightens && std::none_of(settings.begin(), settings.end(), is_it))
+            settings.push_back({key});
+    }
 }
 
 // By itself a texture has the exposure of the plate, and its highlights roll off like a camera's.
@@ -64,18 +65,15 @@ void warn_above_one(const std::vector<FrameResult>& frames, const Project& proje
         pixels += f.above_one;
         if (f.above_one > 0) where.push_back(f.frame);
     }
-    std::vector<std::string_view> settings;
+    if (where.empty()) return;
+    std::vector<SettingRef> settings;
     for (const auto& region : project.regions)
         if (region->enabled) add_brightening(*region, settings);
-    if (where.empty() || settings.empty()) return;
-    std::vector<std::string> names;
-    for (const std::string_view key : settings)
-        if (std::string name = setting_name({key}); !name.empty()) names.push_back(std::move(name));
+    if (settings.empty()) return;
     warnings.push_back(
         fmt::format("{} on {} would be brighter than the output can hold; their "
                     "highlights were rolled off. Lower what brightens the texture{}.",
-                    pixels_text(pixels), frames_text(where),
-                    names.empty() ? "" : fmt::format(" ({})", fmt::join(names, ", "))));
+                    pixels_text(pixels), frames_text(where), by(settings)));
 }
 
 // Lists the first few frames with their counts.

@@ -24,6 +24,10 @@ std::string setting_name(const SettingRef& setting) {
 }
 
 std::string by(std::initializer_list<SettingRef> settings) {
+    return by(std::span<const SettingRef>(settings.begin(), settings.size()));
+}
+
+std::string by(std::span<const SettingRef> settings) {
     std::string names;
     for (const SettingRef& setting : settings) {
         const std::string name = setting_name(setting);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -84,5 +85,6 @@ void set_setting_namer(SettingNamer namer);
 /// What a remedy is done with, for the end of its sentence: " (--texture, --plane)"; empty where
 /// the front end has none of the settings. Thread-safe.
 [[nodiscard]] std::string by(std::initializer_list<SettingRef> settings);
+[[nodiscard]] std::string by(std::span<const SettingRef> settings);
 
 }  // namespace weft

@@ -23,10 +23,9 @@ class Followed {
     Matte small_;
 };
 
-SurfaceWalkerOptions walker_options(Size followed, SurfaceTrack::Motion motion, SurfaceKind kind,
+SurfaceWalkerOptions walker_options(Size followed, SurfaceTrack::Motion motion,
                                     FlowQuality quality) {
     SurfaceWalkerOptions options;
-    options.kind = kind;
     options.quality = quality;
     options.exact_motion = motion == SurfaceTrack::Motion::kExact;
     options.spacing_px = std::max(options.exact_motion ? 4 : 8, followed.width / 160);
@@ -38,8 +37,9 @@ Size followed_size(Size plate, SurfaceTrack::Motion motion) {
 }
 
 SurfaceWalker walker_at(const PlateViews& views, const Matte& visible, const Matte& extent,
-                        const SurfaceWalkerOptions& options, Size followed,
+                        SurfaceWalkerOptions options, SurfaceKind kind, Size followed,
                         const LatticeField* base, std::shared_ptr<const StepFrame> start) {
+    options.kind = kind;
     LatticeField small;
     if (base) small = resized(*base, followed, options.spacing_px);
     if (start) return {std::move(start), options, base ? &small : nullptr};
@@ -63,7 +63,7 @@ std::shared_ptr<const StepFrame> step_frame(const PlateViews& views, const Matte
 StepEvidence step_evidence(const StepFrame& prev, const StepFrame& cur,
                            const FlowField& prev_from_cur, FlowQuality quality) {
     const SurfaceWalkerOptions options =
-        walker_options(cur.size(), SurfaceTrack::Motion::kEstimated, SurfaceKind::kFound, quality);
+        walker_options(cur.size(), SurfaceTrack::Motion::kEstimated, quality);
     return gather_evidence(prev, cur, prev_from_cur, quality, options.spacing_px);
 }
 
@@ -76,8 +76,7 @@ WalkStep exact_step(const PlateViews& views, const Matte& visible, const FlowFie
 
 int SurfaceTrack::spacing_for(Size plate, Motion motion) {
     const Size followed = followed_size(plate, motion);
-    const int spacing =
-        walker_options(followed, motion, SurfaceKind::kFound, FlowQuality::kFinal).spacing_px;
+    const int spacing = walker_options(followed, motion, FlowQuality::kFinal).spacing_px;
     return (spacing * plate.width + followed.width / 2) / followed.width;
 }
 
@@ -87,7 +86,7 @@ SurfaceTrack::SurfaceTrack(const PlateViews& views, const Matte& visible, const 
     : plate_(visible.size()),
       followed_(followed_size(plate_, motion)),
       spacing_px_(spacing_for(plate_, motion)),
-      walker_(walker_at(views, visible, extent, walker_options(followed_, motion, kind, quality),
+      walker_(walker_at(views, visible, extent, walker_options(followed_, motion, quality), kind,
                         followed_, base, std::move(start))) {
     take_over();
 }

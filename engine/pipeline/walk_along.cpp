@@ -13,8 +13,10 @@ enum class Did : std::uint8_t { kBegin, kStep, kStepHiding, kHold, kAnchor };
 
 class Name {
   public:
-    explicit Name(Did did, SurfaceKind kind = SurfaceKind::kFound) {
-        hasher_.value(static_cast<std::uint8_t>(did)).value(static_cast<std::uint8_t>(kind));
+    explicit Name(Did did) { hasher_.value(static_cast<std::uint8_t>(did)); }
+    Name& add(SurfaceKind kind) {
+        hasher_.value(static_cast<std::uint8_t>(kind));
+        return *this;
     }
     Name& add(const Hash128& hash) {
         hasher_.value(hash.high).value(hash.low);
@@ -47,8 +49,8 @@ void begin_walk(SurfaceJob& job, const PlateViews& views, const SurfaceStop& sto
     const SurfaceKind kind = kind_of(job);
     job.walk.reset();
     if (stop.key) {
-        Name name(Did::kBegin, kind);
-        name.add(*stop.key);
+        Name name(Did::kBegin);
+        name.add(kind).add(*stop.key);
         if (base) name.add(*base);
         job.walk = name.finish();
     }

@@ -20,14 +20,17 @@ struct Anchor {
     LatticeField motion = {};  ///< Of the step to it (of the first one: from it); empty: not known.
 };
 
+/// True if the picture shows the surface at all: unrelated pictures leave a residual of about 0.7.
+[[nodiscard]] inline bool shows_surface(const RegistrationFit& fit) {
+    return fit.residual < 0.45 && fit.share > 0.5;
+}
+
 /// A frame registered against one anchor.
 struct Registered {
     LatticeField anchor_from_cur;
     RegistrationFit fit;
     bool planar = false;  ///< By a homography.
-    /// True if the picture shows the surface at all: unrelated pictures leave a residual of about
-    /// 0.7.
-    [[nodiscard]] bool holds() const { return fit.residual < 0.45 && fit.share > 0.5; }
+    [[nodiscard]] bool holds() const { return shows_surface(fit); }
 };
 
 /// What is compared of an anchor and a frame: the colours, if both have any and `by_color`, else

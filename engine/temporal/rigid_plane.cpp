@@ -28,12 +28,13 @@ RigidPlane::RigidPlane(SurfaceKind kind)
 
 bool RigidPlane::is_settled() const {
     constexpr int kFrames = 6;
-    return said_ || (believed_ && judged_ >= kFrames);
+    return said_ || (believed_ && borne_out_ >= kFrames);
 }
 
-void RigidPlane::note(bool speaks_against) {
+void RigidPlane::note(bool speaks_against, const RegistrationFit& fit) {
     constexpr double kRefuted = 2, kForgotten = 0.5;
-    ++judged_;
+    // A frame that shows nothing says nothing for it either.
+    if (!speaks_against && shows_surface(fit)) ++borne_out_;
     against_ = speaks_against ? against_ + 1 : std::max(0.0, against_ - kForgotten);
     if (against_ >= kRefuted && !said_) believed_ = false;
 }
@@ -43,7 +44,7 @@ std::optional<Registered> RigidPlane::registered(const Anchor& anchor, const Ste
                                                  const Registered& bent, FlowQuality quality) {
     if (!believed_) return std::nullopt;
     if (bent.planar) {
-        note(false);
+        note(false, bent.fit);
         return bent;
     }
     const RegisteredPictures pictures = pictures_of(anchor, cur, by_color);
@@ -52,7 +53,7 @@ std::optional<Registered> RigidPlane::registered(const Anchor& anchor, const Ste
     PlanarRegistration plane = register_planar(there, here, initial, options);
     if (!plane.found) plane.fit = registration_fit(there, here, initial, options);
     const bool speaks_against = bends(there, here, plane.anchor_from_cur, bent.anchor_from_cur);
-    note(speaks_against);
+    note(speaks_against, plane.fit);
     if (!said_ && (!believed_ || speaks_against)) return std::nullopt;
     if (plane.found) {
         plane.anchor_from_cur = refine_planar(there, here, plane.anchor_from_cur, options);

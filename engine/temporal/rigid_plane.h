@@ -33,10 +33,10 @@ class RigidPlane {
                                                        const Registered& bent, FlowQuality quality);
 
   private:
-    void note(bool speaks_against);
+    void note(bool speaks_against, const RegistrationFit& fit);
 
     bool believed_ = true, said_ = false;
-    int judged_ = 0;      // frames
+    int borne_out_ = 0;   // frames that showed the plane
     double against_ = 0;  // frames that spoke against it, less half of those since that did not
 };
 

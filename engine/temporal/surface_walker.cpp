@@ -241,15 +241,19 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
     // A part that has just come into view has no motion yet, and says nothing for either choice.
     MotionChoice unchanged = s.choice;
     StepMotion step = choose_motion(to.evidence, was_hidden ? unchanged : s.choice);
-    if (step.by_outline) {
-        // What shows nothing but its outline may be any drawing; but a plane that was borne out
-        // keeps its picture, though it is faint for a moment.
-        if (!s.plane.is_settled()) s.plane.refute();
-        if (s.plane.believed()) step = {to.evidence.by_picture};
+    // What shows nothing but its outline may be any drawing; but a plane that was borne out keeps
+    // its picture, though it is faint for a moment.
+    if (step.by_outline && !s.plane.is_said()) {
+        if (s.plane.is_settled())
+            step = {to.evidence.by_picture};
+        else
+            s.plane.refute();
     }
     s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
     if (step.by_outline) {
         s.register_drawing(cur);
+        if (s.plane.is_said())
+            s.correct(s.anchors.present_index(), flattened(s.anchor_from_cur, visible));
     } else if (s.lost) {
         s.search(to.frame, visible_px);
     } else {

@@ -350,7 +350,9 @@ TEST(SurfaceWalker, FindsAgainWhatAStepHasLost) {
 }
 
 // A drawn sign, a flat fill with one line, that swings on and back: 12° from drawing to drawing.
-TEST(SurfaceWalker, LaysADrawingOnTheReferenceDrawingAgain) {
+class DrawnSign : public ::testing::TestWithParam<SurfaceKind> {};
+
+TEST_P(DrawnSign, IsLaidOnTheReferenceDrawingAgain) {
     constexpr int kDrawings = 8;
     const auto turn = [](int t) { return 0.21f * static_cast<float>(t < 5 ? t : 8 - t); };
     const Vec2 hook(128, 40);
@@ -371,7 +373,9 @@ TEST(SurfaceWalker, LaysADrawingOnTheReferenceDrawingAgain) {
             return !inside(q) ? 0.8f : std::abs(q.y - 6) < 1.5f ? 0.1f : 0.5f;
         });
     };
-    SurfaceWalker walker(luma(0), extent(0), {});
+    SurfaceWalkerOptions options;
+    options.kind = GetParam();
+    SurfaceWalker walker(luma(0), extent(0), options);
     FlowField still(kShotFrame);
     std::fill_n(still.valid.data(), still.valid.size_bytes(), std::uint8_t{255});
     for (int t = 1; t <= kDrawings; ++t) {
@@ -384,6 +388,9 @@ TEST(SurfaceWalker, LaysADrawingOnTheReferenceDrawingAgain) {
         }
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, DrawnSign,
+                         ::testing::Values(SurfaceKind::kFound, SurfaceKind::kPlane));
 
 }  // namespace
 }  // namespace weft
