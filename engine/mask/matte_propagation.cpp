@@ -21,11 +21,13 @@
 #include "engine/mask/motion_sides.h"
 #include "engine/mask/nearest_pixel.h"
 #include "engine/mask/newcomers.h"
+#include "engine/mask/resting_scene.h"
 #include "engine/mask/shape_transport.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/soft_matting.h"
 #include "engine/mask/surface_palette.h"
 #include "engine/mask/surface_return.h"
+#include "engine/mask/taken_over.h"
 #include "engine/mask/uncovered.h"
 
 namespace weft {
@@ -80,6 +82,7 @@ struct MatteWalker::State {
     FlatFills fills;
     Departure departure;
     MotionReturn lost;
+    RestingScene scene;
     MotionSides sides = {};
     Uncovered uncovered = {};
     Newcomers newcomers = {};
@@ -92,7 +95,8 @@ struct MatteWalker::State {
                                ViewF2 prev_from_cur, const Recti& area) const;
     void take_back(ViewU8x3 now, const FlowField& prev_from_cur, ImageF1& distance, Matte& matte);
     void take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte);
-    void take_changed(const Matte& inside, ImageF1& distance, Matte& matte) const;
+    void take_as_scene(ViewU8x3 now, const FlowField& prev_from_cur, const Matte& covered,
+                       ImageF1& distance, Matte& matte);
     void drop_islands(ViewU8x3 now, const FlowField& prev_from_cur, ViewF2 background,
                       ImageF1& distance, Matte& matte);
     LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
@@ -129,7 +133,8 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            SurfaceReturn(frame, phi),
                                            FlatFills(frame, phi),
                                            Departure(phi),
-                                           MotionReturn(phi)});
+                                           MotionReturn(phi),
+                                           RestingScene(frame, known)});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
     const ImageF1& softness = state_->key_softness;
@@ -258,23 +263,19 @@ void MatteWalker::State::take_back(ViewU8x3 now, const FlowField& prev_from_cur,
 // Of drawn animation: fills between lines belong to the surface as a whole, or not at all.
 void MatteWalker::State::take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte) {
     const Matte whole = fills.corrected(now, distance);
-    if (!whole.empty()) take_changed(whole, distance, matte);
+    if (!whole.empty()) take_over(whole, scale.limit_px, distance, matte);
 }
 
-// Takes over what differs from the boundary that was found.
-void MatteWalker::State::take_changed(const Matte& inside, ImageF1& distance, Matte& matte) const {
-    const ImageF1 found = smooth_distance(signed_distance(inside, scale.limit_px), 1);
-    constexpr float kBeside_px = 2;
-    for (int y = 0; y < matte.height(); ++y) {
-        for (int x = 0; x < matte.width(); ++x) {
-            const bool as_before = (distance.at(x, y) > 0) == (inside.at(x, y) != 0);
-            // What is as it was keeps its edge to a fraction of a pixel.
-            if (as_before && std::abs(distance.at(x, y) - found.at(x, y)) < kBeside_px) continue;
-            distance.at(x, y) = found.at(x, y);
-            matte.at(x, y) = static_cast<std::uint8_t>(
-                std::lround(255 * std::clamp(0.5f + found.at(x, y), 0.0f, 1.0f)));
-        }
-    }
+// Of a scene at rest: what was hidden comes back, and what passes in front goes.
+void MatteWalker::State::take_as_scene(ViewU8x3 now, const FlowField& prev_from_cur,
+                                       const Matte& covered, ImageF1& distance, Matte& matte) {
+    const Matte inside = scene.corrected(
+        now, covered.empty() ? distance : seen_distance(distance, covered), prev_from_cur, palette);
+    if (inside.empty()) return;
+    const Matte wrong = differing(inside, distance);
+    plate.forget(wrong);
+    departure.correct(wrong, inside);
+    take_over(inside, scale.limit_px, distance, matte);
 }
 
 // What was uncovered and taken for surface goes out when it is left behind, and an island that was
@@ -290,7 +291,7 @@ void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_c
         for (int x = 0; x < kept.width(); ++x)
             kept.at(x, y) = distance.at(x, y) > 0 && islands.at(x, y) == 0 ? 255 : 0;
     }
-    take_changed(kept, distance, matte);
+    take_over(kept, scale.limit_px, distance, matte);
 }
 
 MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
@@ -308,13 +309,14 @@ MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
         }
     }
     if (any) {
-        s.take_changed(inside, s.phi, s.last);
+        take_over(inside, s.scale.limit_px, s.phi, s.last);
         move_seen(s.seen, s.phi);
         s.plate.forget(wrong);
         s.plate.update(s.frame, s.seen_phi());
         s.departure.correct(wrong, inside);
         s.sides.forget(wrong);
         s.newcomers.forget(wrong);
+        s.scene.correct(wrong, inside);
     }
     s.last = with_confirmed(std::move(s.last), part);
     s.confirmed.add(part.area);
@@ -369,12 +371,14 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     s.drop_islands(frame, prev_from_cur, background, phi, estimate.matte);
     s.take_back(frame, prev_from_cur, phi, estimate.matte);
     s.take_whole_fills(frame, phi, estimate.matte);
+    s.take_as_scene(frame, prev_from_cur, covered, phi, estimate.matte);
     estimate.confidence = s.confidence;
     estimate.since = s.confirmed.since();
     estimate.since_confidence = s.since_confidence;
     s.phi = std::move(phi);
     s.seen = covered.empty() ? ImageF1() : seen_distance(s.phi, covered);
     s.plate.update(frame, s.seen_phi());
+    s.scene.remember(s.seen_phi());
     if (!s.lost.lost(s.phi)) s.palette.follow(frame, s.seen_phi(), s.scale.band_px);
     s.frame = copy_of(frame);
     s.last = estimate.matte;

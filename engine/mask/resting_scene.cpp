@@ -1,0 +1,391 @@
+#include "engine/mask/resting_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+#include "engine/core/block_means.h"
+#include "engine/core/luma.h"
+#include "engine/core/parallel.h"
+#include "engine/mask/scene_pieces.h"
+#include "engine/mask/signed_distance.h"
+#include "engine/motion/plane_fit.h"
+
+namespace weft {
+namespace {
+
+constexpr float kNear_px = 60;  // of 854×480: what is around the surface
+constexpr float kKnown = 3;     // frames in which a colour was seen …
+constexpr float kSure = 6;      // … and from which on it decides
+constexpr float kMatches = 3;   // noise
+constexpr float kUsuallyInside = 0.8f,
+                kUsuallyOutside = 0.2f;  // of the frames in which a place was seen
+
+ImageF3 reduced_floats(ViewU8x3 frame, int step) {
+    ImageF3 out(frame.size());
+    for (int y = 0; y < frame.height(); ++y)
+        std::copy_n(frame.row(y), 3 * static_cast<std::size_t>(frame.width()), out.row(y));
+    return block_means(out, step);
+}
+
+Vec3 color_at(const ImageF3& picture, int x, int y) {
+    const float* c = picture.pixel(x, y);
+    return {c[0], c[1], c[2]};
+}
+
+float luma_of(Vec3 c) {
+    return luma_709(c.x, c.y, c.z);
+}
+
+float median_of(std::vector<float>& values, float of_none) {
+    if (values.empty()) return of_none;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+RestingScene::RestingScene(ViewU8x3 key_frame, ViewF1 key_phi)
+    : scale_(key_frame.size()),
+      key_area_px_(area_of(key_phi)),
+      places_(scale_.size),
+      now_(reduced_floats(key_frame, scale_.step)),
+      gain_(scale_.size, 1.0f),
+      moving_(scale_.size),
+      returning_(scale_.size),
+      misses_(scale_.size),
+      seen_(static_cast<std::size_t>(scale_.size.width) *
+            static_cast<std::size_t>(scale_.size.height)) {
+    constexpr int kLeastSide = 32;
+    rests_ = std::min(scale_.size.width, scale_.size.height) >= kLeastSide;
+    remember(key_phi);
+    is_key_ = false;
+}
+
+float RestingScene::depth(ViewF1 phi, int x, int y) const {
+    const Vec2i p = scale_.pixel(x, y);
+    return phi.row(p.y)[p.x];
+}
+
+Vec2i RestingScene::place_of(int x, int y) const {
+    constexpr float kFar = 1e6f;  // beyond a plane's horizon
+    const Vec2 k =
+        (mapped(key_from_cur_, scale_.middle(x, y)) + 0.5f) / static_cast<float>(scale_.step);
+    return Vec2i(glm::floor(glm::clamp(k, -kFar, kFar))) + places_.origin();
+}
+
+// The frame's colour in the light of the keyframe.
+Vec3 RestingScene::unlit(int x, int y) const {
+    return color_at(now_, x, y) / gain_.at(x, y);
+}
+
+// Of the usual colours, as the frame is expected to show them; 0 where none is known.
+ImageF1 RestingScene::expected_luma() const {
+    ImageF1 out(scale_.size);
+    parallel_rows(out.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y)
+            for (int x = 0; x < out.width(); ++x)
+                if (const ScenePlace* place = places_.known(place_of(x, y)))
+                    out.at(x, y) = std::max(1.0f, luma_of(place->usual.color));
+    });
+    return out;
+}
+
+void RestingScene::move(const FlowField& prev_from_cur, ViewF1 phi) {
+    // What comes close in front may fill most of the surroundings for a while.
+    constexpr float kInFront = 0.25f;
+    SceneStep step = scene_step(prev_from_cur, phi, scale_);
+    fits_ = step.surface_rests && step.around_rests;
+    if (!fits_) against_ += step.surface_rests ? kInFront : 1;
+    key_from_cur_ = key_from_cur_ * step.prev_from_cur;
+    if (fits_) moving_ = std::move(step.moving);
+}
+
+// Steps add up to a drift: the frame is laid on what is known of the surface and what is near it.
+void RestingScene::stay_on_place(ViewF1 phi) {
+    const ImageF1 expected = expected_luma();
+    ImageF1 luma(scale_.size);
+    Matte known(scale_.size);
+    for (int y = 0; y < luma.height(); ++y) {
+        for (int x = 0; x < luma.width(); ++x) {
+            luma.at(x, y) = luma_709(now_.pixel(x, y));
+            const bool near = depth(phi, x, y) > -kNear_px * scale_.unit_px && !passes(x, y);
+            known.at(x, y) = near && expected.at(x, y) > 0 ? 255 : 0;
+        }
+    }
+    if (const auto shift = expected_from_cur(expected, luma, known, scale_))
+        key_from_cur_ = key_from_cur_ * *shift;
+}
+
+// Smooth, and of most of what is around: a thing in front has another brightness, but is no shade.
+void RestingScene::measure_light() {
+    constexpr float kDarkest = 8;                 // luma code below which there is no ratio
+    constexpr float kSpread = 0.15f, kAlone = 4;  // natural logarithms; blocks
+    constexpr int kSide = 49;                     // blocks
+    const ImageF1 expected = expected_luma();
+    ImageF1 ratio(scale_.size);
+    std::vector<float> all;
+    for (int y = 0; y < ratio.height(); ++y) {
+        for (int x = 0; x < ratio.width(); ++x) {
+            const float here = luma_709(now_.pixel(x, y));
+            if (expected.at(x, y) < kDarkest || here < kDarkest || passes(x, y)) continue;
+            ratio.at(x, y) = here / expected.at(x, y);
+            all.push_back(ratio.at(x, y));
+        }
+    }
+    const float usual = std::log(median_of(all, 1.0f));
+    cv::Mat sums(ratio.height(), ratio.width(), CV_32FC2, cv::Scalar::all(0));
+    for (int y = 0; y < ratio.height(); ++y) {
+        for (int x = 0; x < ratio.width(); ++x) {
+            if (ratio.at(x, y) <= 0) continue;
+            const float off = std::log(ratio.at(x, y)) - usual;
+            const float weight = 1 / (1 + off * off / (kSpread * kSpread));
+            sums.at<cv::Vec2f>(y, x) = {weight, weight * off};
+        }
+    }
+    cv::boxFilter(sums, sums, CV_32F, {kSide, kSide}, {-1, -1}, false, cv::BORDER_CONSTANT);
+    for (int y = 0; y < ratio.height(); ++y) {
+        for (int x = 0; x < ratio.width(); ++x) {
+            const auto& sum = sums.at<cv::Vec2f>(y, x);
+            gain_.at(x, y) = std::exp(usual + sum[1] / (sum[0] + kAlone));
+        }
+    }
+}
+
+// The known colour of a place that is nearest to `color`, code values, if it is nearer than
+// `least`.
+float RestingScene::nearest(Vec2i place, Vec3 color, float least, Seen& seen) const {
+    const ScenePlace* known = places_.known(place);
+    if (!known) return least;
+    for (const PlaceMode* mode : {&known->usual, &known->other}) {
+        if (mode->frames < kKnown) continue;
+        const float d = color_difference(color, mode->color);
+        if (d >= least) continue;
+        least = d;
+        seen = {mode->frames, mode->inside / mode->frames, !mode->of_key};
+    }
+    return least;
+}
+
+// How far a block is from the colours that are known of its place, or else of those beside it; or,
+// if that is farther, these from the block and those beside it: a fraction of a block is no
+// difference, but a line that is not there is. Code values; 0 where nothing is known.
+float RestingScene::miss(int x, int y, Seen& seen) const {
+    constexpr float kFar = 255;
+    const Vec2i at = place_of(x, y);
+    const Vec3 color = unlit(x, y);
+    float here = nearest(at, color, kFar, seen);
+    if (seen.frames == 0) return 0;
+    if (here < kMatches * noise_levels_) return here;
+    for (int v = -1; v <= 1; ++v)
+        for (int u = -1; u <= 1; ++u)
+            here = nearest(at + Vec2i(u, v), color, here, seen);
+    float there = kFar;
+    Seen unused;
+    for (int v = std::max(0, y - 1); v <= std::min(y + 1, now_.height() - 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(x + 1, now_.width() - 1); ++u)
+            there = nearest(at, unlit(u, v), there, unused);
+    return std::max(here, there);
+}
+
+// What each block shows, and how far that is from what is known, in windows of 5 × 5.
+void RestingScene::compare() {
+    constexpr float kMost = 10;  // noise
+    constexpr int kSide = 5;
+    cv::Mat misses(scale_.size.height, scale_.size.width, CV_32F, misses_.data());
+    parallel_rows(misses.rows, 8, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < misses.cols; ++x) {
+                Seen& seen = seen_[static_cast<std::size_t>(y * misses.cols + x)];
+                seen = {};
+                misses_.at(x, y) = std::min(kMost, miss(x, y, seen) / noise_levels_);
+            }
+        }
+    });
+    cv::blur(misses, misses, {kSide, kSide});
+}
+
+bool RestingScene::is_there(int x, int y) const {
+    return misses_.at(x, y) < kMatches;
+}
+
+// Whether most of what is near shows what is known, and how closely.
+void RestingScene::measure_noise(ViewF1 phi) {
+    constexpr double kOfNear = 0.6;
+    constexpr float kLeast_levels = 1.5f, kMost_levels = 6, kFollow = 0.3f, kOfMedian = 1.5f;
+    std::vector<float> misses;
+    std::size_t hits = 0;
+    for (int y = 0; y < misses_.height(); y += 2) {
+        for (int x = 0; x < misses_.width(); x += 2) {
+            if (depth(phi, x, y) < -kNear_px * scale_.unit_px) continue;
+            if (seen_[static_cast<std::size_t>(y * misses_.width() + x)].frames == 0) continue;
+            misses.push_back(misses_.at(x, y));
+            hits += is_there(x, y) ? 1 : 0;
+        }
+    }
+    if (misses.empty()) return;
+    fits_ = static_cast<double>(hits) > kOfNear * static_cast<double>(misses.size());
+    const float levels = noise_levels_ * kOfMedian * median_of(misses, 0);
+    noise_levels_ += kFollow * (std::clamp(levels, kLeast_levels, kMost_levels) - noise_levels_);
+}
+
+float RestingScene::odds(const SurfacePalette& palette, int x, int y) const {
+    std::array<std::uint8_t, 3> code{};
+    const float* color = now_.pixel(x, y);
+    std::transform(color, color + 3, code.begin(),
+                   [](float v) { return static_cast<std::uint8_t>(v); });
+    return palette.odds(code.data());
+}
+
+// 255 where the scene has another word than phi.
+Matte RestingScene::to_change(ViewF1 phi, const SurfacePalette& palette) const {
+    constexpr float kClear_px = 1;
+    constexpr double kAlone = 0.01;  // of the keyframe's matte comes back far from the rest
+    Matte out(scale_.size), returns(scale_.size), uncovered(scale_.size), beside(scale_.size);
+    parallel_rows(out.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                const float inside_px = depth(phi, x, y);
+                if (inside_px > 0) beside.at(x, y) = static_cast<std::uint8_t>(Beside::kSurface);
+                if (std::abs(inside_px) < kClear_px) continue;
+                const bool rests = is_there(x, y) && !passes(x, y);
+                const Seen seen = seen_[static_cast<std::size_t>(y * out.width() + x)];
+                const bool is_like = odds(palette, x, y) > 0;
+                if (inside_px > 0) {
+                    // What is none of the scene is in front of what is there, whatever that shows.
+                    const ScenePlace* place = places_.known(place_of(x, y));
+                    const bool outside =
+                        rests ? seen.frames >= kSure && seen.inside < kUsuallyOutside
+                              : place && place->frames >= kSure &&
+                                    place->inside < kUsuallyOutside * place->frames && passes(x, y);
+                    if (outside && !is_like) out.at(x, y) = 255;
+                    continue;
+                }
+                if (!rests || seen.frames < kKnown) continue;
+                if (seen.frames >= kSure && seen.inside > kUsuallyInside) returns.at(x, y) = 255;
+                if (seen.is_new && is_like) uncovered.at(x, y) = 255;
+                if (!seen.is_new && seen.inside < kUsuallyOutside)
+                    beside.at(x, y) = static_cast<std::uint8_t>(Beside::kOther);
+            }
+        }
+    });
+    keep_joined(returns, beside, kAlone * key_area_px_ / (scale_.step * scale_.step));
+    keep_joined(uncovered, beside, std::numeric_limits<double>::infinity());
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            if (returns.at(x, y) != 0 || uncovered.at(x, y) != 0) out.at(x, y) = 255;
+    return out;
+}
+
+double RestingScene::leaving_blocks(const Matte& change, ViewF1 phi) const {
+    double blocks = 0;
+    for (int y = 0; y < change.height(); ++y)
+        for (int x = 0; x < change.width(); ++x)
+            blocks += change.at(x, y) != 0 && depth(phi, x, y) > 0 ? 1 : 0;
+    return blocks;
+}
+
+// What is to be changed, by blocks, if the scene explains the frame.
+Matte RestingScene::explain(ViewF1 phi, const SurfacePalette& palette) {
+    constexpr float kForgotten = 0.5f;
+    constexpr double kLeast_px = 100, kMostLeaves = 0.05;  // of 854×480; of the keyframe's matte
+    stay_on_place(phi);
+    measure_light();
+    compare();
+    measure_noise(phi);
+    Matte change;
+    if (fits_) {
+        change = returning_ = to_change(phi, palette);
+        const double blocks = 1.0 / (scale_.step * scale_.step);
+        keep_large(change,
+                   blocks * kLeast_px * static_cast<double>(scale_.unit_px * scale_.unit_px));
+        // Much of a surface does not leave it.
+        fits_ = leaving_blocks(change, phi) < blocks * kMostLeaves * key_area_px_;
+    }
+    against_ = fits_ ? std::max(0.0f, against_ - kForgotten) : against_ + 1;
+    return change;
+}
+
+Matte RestingScene::corrected(ViewU8x3 frame, ViewF1 phi, const FlowField& prev_from_cur,
+                              const SurfacePalette& palette) {
+    constexpr float kRefuted = 4;
+    if (!rests_) return {};
+    now_ = reduced_floats(frame, scale_.step);
+    move(prev_from_cur, phi);
+    Matte change;
+    if (fits_) change = explain(phi, palette);
+    rests_ = against_ < kRefuted;
+    if (!rests_) places_ = ScenePlaces({});  // they are the most of its memory
+    if (!rests_ || !fits_) return {};
+    bool any = false;
+    for (int y = 0; y < change.height(); ++y) {
+        for (int x = 0; x < change.width(); ++x) {
+            const bool changes = change.at(x, y) != 0;
+            if (changes || depth(phi, x, y) > 0) returning_.at(x, y) = 0;
+            any = any || changes;
+        }
+    }
+    if (!any) return {};
+    Matte inside(phi.size());
+    for (int y = 0; y < inside.height(); ++y) {
+        for (int x = 0; x < inside.width(); ++x) {
+            const bool changes = change.at(x / scale_.step, y / scale_.step) != 0;
+            inside.at(x, y) = (phi.row(y)[x] > 0) != changes ? 255 : 0;
+        }
+    }
+    return inside;
+}
+
+// The places that the frame can show.
+Recti RestingScene::shown_places() const {
+    const int w = scale_.size.width - 1, h = scale_.size.height - 1;
+    Recti box;
+    for (const Vec2i corner : {Vec2i(0, 0), Vec2i(w, 0), Vec2i(0, h), Vec2i(w, h)}) {
+        const Vec2i p = place_of(corner.x, corner.y);
+        box = box.united({p.x, p.y, p.x + 1, p.y + 1});
+    }
+    return box.grown(1).intersected(rect_of(places_.size()));
+}
+
+void RestingScene::remember(ViewF1 phi) {
+    constexpr float kClear_px = 1.5f;
+    if (!rests_ || !fits_) return;
+    const glm::dmat3 cur_from_key = glm::inverse(key_from_cur_);
+    const Recti shown = shown_places();
+    parallel_rows(shown.height(), 16, [&](int y0, int y1) {
+        for (int y = shown.y0 + y0; y < shown.y0 + y1; ++y) {
+            for (int x = shown.x0; x < shown.x1; ++x) {
+                const Vec2i at(x, y), key = at - places_.origin();
+                const Vec2 p = mapped(cur_from_key, scale_.middle(key.x, key.y));
+                if (!(p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(phi.width() - 1) &&
+                      p.y <= static_cast<float>(phi.height() - 1)))
+                    continue;
+                const Vec2i b = Vec2i(p + 0.5f) / scale_.step;
+                if (passes(b.x, b.y) || returning_.at(b.x, b.y) != 0) continue;
+                const float inside_px = sample_bilinear(phi, p.x, p.y);
+                if (std::abs(inside_px) < kClear_px) continue;
+                places_.at(at).see({unlit(b.x, b.y), 1, inside_px > 0 ? 1.0f : 0.0f, is_key_},
+                                   kMatches * noise_levels_, is_there(b.x, b.y));
+            }
+        }
+    });
+}
+
+void RestingScene::correct(ViewU8x1 where, ViewU8x1 inside) {
+    for (int y = 0; y < scale_.size.height; ++y) {
+        for (int x = 0; x < scale_.size.width; ++x) {
+            const Vec2i p = scale_.pixel(x, y), at = place_of(x, y);
+            if (where.row(p.y)[p.x] != 0 && places_.has(at))
+                places_.at(at).correct(inside.row(p.y)[p.x] != 0);
+        }
+    }
+}
+
+}  // namespace weft

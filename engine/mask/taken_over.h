@@ -1,0 +1,15 @@
+#pragma once
+// Internal to matte_propagation: a boundary that is corrected in places.
+
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// 255 where `inside` (0 outside) and the sign of `distance` differ; both of one size.
+[[nodiscard]] Matte differing(const Matte& inside, const ImageF1& distance);
+
+/// Takes over what `inside` (0 outside) has otherwise than `distance`, a signed distance up to
+/// `limit_px`, and the matte of it. What is as it was keeps its edge to a fraction of a pixel.
+void take_over(const Matte& inside, float limit_px, ImageF1& distance, Matte& matte);
+
+}  // namespace weft
