@@ -13,6 +13,7 @@
 #include "engine/core/block_means.h"
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
+#include "engine/mask/scene_light.h"
 #include "engine/mask/scene_pieces.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/motion/plane_fit.h"
@@ -39,15 +40,12 @@ Vec3 color_at(const ImageF3& picture, int x, int y) {
     return {c[0], c[1], c[2]};
 }
 
-float luma_of(Vec3 c) {
-    return luma_709(c.x, c.y, c.z);
-}
-
-float median_of(std::vector<float>& values, float of_none) {
-    if (values.empty()) return of_none;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+ImageF1 luma_of(const ImageF3& picture) {
+    ImageF1 out(picture.size());
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            out.at(x, y) = luma_709(picture.pixel(x, y));
+    return out;
 }
 
 }  // namespace
@@ -93,7 +91,7 @@ ImageF1 RestingScene::expected_luma() const {
         for (int y = y0; y < y1; ++y)
             for (int x = 0; x < out.width(); ++x)
                 if (const ScenePlace* place = places_.known(place_of(x, y)))
-                    out.at(x, y) = std::max(1.0f, luma_of(place->usual.color));
+                    out.at(x, y) = std::max(1.0f, luma_709(&place->usual.color.x));
     });
     return out;
 }
@@ -109,54 +107,17 @@ void RestingScene::move(const FlowField& prev_from_cur, ViewF1 phi) {
 }
 
 // Steps add up to a drift: the frame is laid on what is known of the surface and what is near it.
-void RestingScene::stay_on_place(ViewF1 phi) {
-    const ImageF1 expected = expected_luma();
-    ImageF1 luma(scale_.size);
+void RestingScene::stay_on_place(ViewF1 phi, const ImageF1& luma) {
     Matte known(scale_.size);
-    for (int y = 0; y < luma.height(); ++y) {
-        for (int x = 0; x < luma.width(); ++x) {
-            luma.at(x, y) = luma_709(now_.pixel(x, y));
+    const ImageF1 expected = expected_luma();
+    for (int y = 0; y < known.height(); ++y) {
+        for (int x = 0; x < known.width(); ++x) {
             const bool near = depth(phi, x, y) > -kNear_px * scale_.unit_px && !passes(x, y);
             known.at(x, y) = near && expected.at(x, y) > 0 ? 255 : 0;
         }
     }
     if (const auto shift = expected_from_cur(expected, luma, known, scale_))
         key_from_cur_ = key_from_cur_ * *shift;
-}
-
-// Smooth, and of most of what is around: a thing in front has another brightness, but is no shade.
-void RestingScene::measure_light() {
-    constexpr float kDarkest = 8;                 // luma code below which there is no ratio
-    constexpr float kSpread = 0.15f, kAlone = 4;  // natural logarithms; blocks
-    constexpr int kSide = 49;                     // blocks
-    const ImageF1 expected = expected_luma();
-    ImageF1 ratio(scale_.size);
-    std::vector<float> all;
-    for (int y = 0; y < ratio.height(); ++y) {
-        for (int x = 0; x < ratio.width(); ++x) {
-            const float here = luma_709(now_.pixel(x, y));
-            if (expected.at(x, y) < kDarkest || here < kDarkest || passes(x, y)) continue;
-            ratio.at(x, y) = here / expected.at(x, y);
-            all.push_back(ratio.at(x, y));
-        }
-    }
-    const float usual = std::log(median_of(all, 1.0f));
-    cv::Mat sums(ratio.height(), ratio.width(), CV_32FC2, cv::Scalar::all(0));
-    for (int y = 0; y < ratio.height(); ++y) {
-        for (int x = 0; x < ratio.width(); ++x) {
-            if (ratio.at(x, y) <= 0) continue;
-            const float off = std::log(ratio.at(x, y)) - usual;
-            const float weight = 1 / (1 + off * off / (kSpread * kSpread));
-            sums.at<cv::Vec2f>(y, x) = {weight, weight * off};
-        }
-    }
-    cv::boxFilter(sums, sums, CV_32F, {kSide, kSide}, {-1, -1}, false, cv::BORDER_CONSTANT);
-    for (int y = 0; y < ratio.height(); ++y) {
-        for (int x = 0; x < ratio.width(); ++x) {
-            const auto& sum = sums.at<cv::Vec2f>(y, x);
-            gain_.at(x, y) = std::exp(usual + sum[1] / (sum[0] + kAlone));
-        }
-    }
 }
 
 // The known colour of a place that is nearest to `color`, code values, if it is nearer than
@@ -232,7 +193,9 @@ void RestingScene::measure_noise(ViewF1 phi) {
     }
     if (misses.empty()) return;
     fits_ = static_cast<double>(hits) > kOfNear * static_cast<double>(misses.size());
-    const float levels = noise_levels_ * kOfMedian * median_of(misses, 0);
+    const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
+    std::nth_element(misses.begin(), middle, misses.end());
+    const float levels = noise_levels_ * kOfMedian * *middle;
     noise_levels_ += kFollow * (std::clamp(levels, kLeast_levels, kMost_levels) - noise_levels_);
 }
 
@@ -242,6 +205,28 @@ float RestingScene::odds(const SurfacePalette& palette, int x, int y) const {
     std::transform(color, color + 3, code.begin(),
                    [](float v) { return static_cast<std::uint8_t>(v); });
     return palette.odds(code.data());
+}
+
+RestingScene::Verdict RestingScene::judged(int x, int y, float inside_px,
+                                           const SurfacePalette& palette) const {
+    const bool rests = is_there(x, y) && !passes(x, y);
+    const Seen seen = seen_[static_cast<std::size_t>(y * scale_.size.width + x)];
+    const bool is_like = odds(palette, x, y) > 0, is_sure = seen.frames >= kSure;
+    if (inside_px > 0) {
+        const bool leaves = rests ? is_sure && seen.inside < kUsuallyOutside
+                                  : passes(x, y) && is_outside(place_of(x, y));
+        return leaves && !is_like ? Verdict::kLeaves : Verdict::kAsFound;
+    }
+    if (!rests || seen.frames < kKnown) return Verdict::kAsFound;
+    if (is_sure && seen.inside > kUsuallyInside) return Verdict::kReturns;
+    if (seen.is_new) return is_like ? Verdict::kUncovered : Verdict::kAsFound;
+    return seen.inside < kUsuallyOutside ? Verdict::kOther : Verdict::kAsFound;
+}
+
+// Whatever it shows: what passes there is none of it.
+bool RestingScene::is_outside(Vec2i place) const {
+    const ScenePlace* known = places_.known(place);
+    return known && known->frames >= kSure && known->inside < kUsuallyOutside * known->frames;
 }
 
 // 255 where the scene has another word than phi.
@@ -255,23 +240,11 @@ Matte RestingScene::to_change(ViewF1 phi, const SurfacePalette& palette) const {
                 const float inside_px = depth(phi, x, y);
                 if (inside_px > 0) beside.at(x, y) = static_cast<std::uint8_t>(Beside::kSurface);
                 if (std::abs(inside_px) < kClear_px) continue;
-                const bool rests = is_there(x, y) && !passes(x, y);
-                const Seen seen = seen_[static_cast<std::size_t>(y * out.width() + x)];
-                const bool is_like = odds(palette, x, y) > 0;
-                if (inside_px > 0) {
-                    // What is none of the scene is in front of what is there, whatever that shows.
-                    const ScenePlace* place = places_.known(place_of(x, y));
-                    const bool outside =
-                        rests ? seen.frames >= kSure && seen.inside < kUsuallyOutside
-                              : place && place->frames >= kSure &&
-                                    place->inside < kUsuallyOutside * place->frames && passes(x, y);
-                    if (outside && !is_like) out.at(x, y) = 255;
-                    continue;
-                }
-                if (!rests || seen.frames < kKnown) continue;
-                if (seen.frames >= kSure && seen.inside > kUsuallyInside) returns.at(x, y) = 255;
-                if (seen.is_new && is_like) uncovered.at(x, y) = 255;
-                if (!seen.is_new && seen.inside < kUsuallyOutside)
+                const Verdict verdict = judged(x, y, inside_px, palette);
+                if (verdict == Verdict::kLeaves) out.at(x, y) = 255;
+                if (verdict == Verdict::kReturns) returns.at(x, y) = 255;
+                if (verdict == Verdict::kUncovered) uncovered.at(x, y) = 255;
+                if (verdict == Verdict::kOther)
                     beside.at(x, y) = static_cast<std::uint8_t>(Beside::kOther);
             }
         }
@@ -296,8 +269,9 @@ double RestingScene::leaving_blocks(const Matte& change, ViewF1 phi) const {
 Matte RestingScene::explain(ViewF1 phi, const SurfacePalette& palette) {
     constexpr float kForgotten = 0.5f;
     constexpr double kLeast_px = 100, kMostLeaves = 0.05;  // of 854×480; of the keyframe's matte
-    stay_on_place(phi);
-    measure_light();
+    const ImageF1 luma = luma_of(now_);
+    stay_on_place(phi, luma);
+    gain_ = scene_gain(expected_luma(), luma, moving_);
     compare();
     measure_noise(phi);
     Matte change;

@@ -1,6 +1,7 @@
 #pragma once
 // A scene in which nothing but the camera and what passes in front moves.
 
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <vector>
 
@@ -43,6 +44,13 @@ class RestingScene {
         float inside = 0.5;   // how often that was the surface's
         bool is_new = false;  // the keyframe does not show it
     };
+    enum class Verdict : std::uint8_t {
+        kAsFound,
+        kLeaves,     // is inside, and none of the surface
+        kReturns,    // is outside, and was the surface before
+        kUncovered,  // is outside, and may have been behind something
+        kOther       // is outside, and always was
+    };
 
     [[nodiscard]] bool is_there(int x, int y) const;
     [[nodiscard]] bool passes(int x, int y) const { return moving_.at(x, y) != 0; }
@@ -54,11 +62,13 @@ class RestingScene {
     [[nodiscard]] float nearest(Vec2i place, Vec3 color, float least, Seen& seen) const;
     [[nodiscard]] float miss(int x, int y, Seen& seen) const;
     [[nodiscard]] float odds(const SurfacePalette& palette, int x, int y) const;
+    [[nodiscard]] Verdict judged(int x, int y, float inside_px,
+                                 const SurfacePalette& palette) const;
+    [[nodiscard]] bool is_outside(Vec2i place) const;
     [[nodiscard]] Matte to_change(ViewF1 phi, const SurfacePalette& palette) const;
     [[nodiscard]] double leaving_blocks(const Matte& change, ViewF1 phi) const;
     void move(const FlowField& prev_from_cur, ViewF1 phi);
-    void stay_on_place(ViewF1 phi);
-    void measure_light();
+    void stay_on_place(ViewF1 phi, const ImageF1& luma);
     void compare();
     void measure_noise(ViewF1 phi);
     [[nodiscard]] Matte explain(ViewF1 phi, const SurfacePalette& palette);
