@@ -67,6 +67,11 @@ RestingScene::RestingScene(ViewU8x3 key_frame, ViewF1 key_phi)
     is_key_ = false;
 }
 
+std::size_t RestingScene::index_of(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(scale_.size.width) +
+           static_cast<std::size_t>(x);
+}
+
 float RestingScene::depth(ViewF1 phi, int x, int y) const {
     const Vec2i p = scale_.pixel(x, y);
     return phi.row(p.y)[p.x];
@@ -164,7 +169,7 @@ void RestingScene::compare() {
     parallel_rows(misses.rows, 8, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < misses.cols; ++x) {
-                Seen& seen = seen_[static_cast<std::size_t>(y * misses.cols + x)];
+                Seen& seen = seen_[index_of(x, y)];
                 seen = {};
                 misses_.at(x, y) = std::min(kMost, miss(x, y, seen) / noise_levels_);
             }
@@ -186,7 +191,7 @@ void RestingScene::measure_noise(ViewF1 phi) {
     for (int y = 0; y < misses_.height(); y += 2) {
         for (int x = 0; x < misses_.width(); x += 2) {
             if (depth(phi, x, y) < -kNear_px * scale_.unit_px) continue;
-            if (seen_[static_cast<std::size_t>(y * misses_.width() + x)].frames == 0) continue;
+            if (seen_[index_of(x, y)].frames == 0) continue;
             misses.push_back(misses_.at(x, y));
             hits += is_there(x, y) ? 1 : 0;
         }
@@ -210,7 +215,7 @@ float RestingScene::odds(const SurfacePalette& palette, int x, int y) const {
 RestingScene::Verdict RestingScene::judged(int x, int y, float inside_px,
                                            const SurfacePalette& palette) const {
     const bool rests = is_there(x, y) && !passes(x, y);
-    const Seen seen = seen_[static_cast<std::size_t>(y * scale_.size.width + x)];
+    const Seen seen = seen_[index_of(x, y)];
     const bool is_like = odds(palette, x, y) > 0, is_sure = seen.frames >= kSure;
     if (inside_px > 0) {
         const bool leaves = rests ? is_sure && seen.inside < kUsuallyOutside

@@ -1,6 +1,7 @@
 #pragma once
 // A scene in which nothing but the camera and what passes in front moves.
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <vector>
@@ -54,6 +55,7 @@ class RestingScene {
 
     [[nodiscard]] bool is_there(int x, int y) const;
     [[nodiscard]] bool passes(int x, int y) const { return moving_.at(x, y) != 0; }
+    [[nodiscard]] std::size_t index_of(int x, int y) const;
     [[nodiscard]] float depth(ViewF1 phi, int x, int y) const;
     [[nodiscard]] Vec2i place_of(int x, int y) const;
     [[nodiscard]] Recti shown_places() const;

@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 cv::Mat opened(Matte& pieces) {
-    const cv::Mat view(pieces.height(), pieces.width(), CV_8U, pieces.data());
+    cv::Mat view(pieces.height(), pieces.width(), CV_8U, pieces.data());
     cv::morphologyEx(view, view, cv::MORPH_OPEN, cv::Mat::ones(3, 3, CV_8U));
     return view;
 }
