@@ -48,6 +48,16 @@ ImageF1 luma_of(const ImageF3& picture) {
     return out;
 }
 
+// A black frame says nothing for a scene, and nothing against it.
+bool shows_anything(const ImageF1& luma) {
+    constexpr float kDark = 8;  // code
+    const float* codes = luma.data();
+    const std::size_t count = luma.size_bytes() / sizeof(float);
+    return 2 * static_cast<std::size_t>(
+                   std::count_if(codes, codes + count, [](float code) { return code > kDark; })) >
+           count;
+}
+
 }  // namespace
 
 RestingScene::RestingScene(ViewU8x3 key_frame, ViewF1 key_phi)
@@ -105,8 +115,11 @@ void RestingScene::move(const FlowField& prev_from_cur, ViewF1 phi) {
     // What comes close in front may fill most of the surroundings for a while.
     constexpr float kInFront = 0.25f;
     SceneStep step = scene_step(prev_from_cur, phi, scale_);
-    fits_ = step.surface_rests && step.around_rests;
-    if (!fits_) against_ += step.surface_rests ? kInFront : 1;
+    fits_ = step.surface == SceneMotion::kRests && step.around == SceneMotion::kRests;
+    if (step.surface == SceneMotion::kMoves)
+        against_ += 1;
+    else if (step.around == SceneMotion::kMoves)
+        against_ += kInFront;
     key_from_cur_ = key_from_cur_ * step.prev_from_cur;
     if (fits_) moving_ = std::move(step.moving);
 }
@@ -275,6 +288,8 @@ Matte RestingScene::explain(ViewF1 phi, const SurfacePalette& palette) {
     constexpr float kForgotten = 0.5f;
     constexpr double kLeast_px = 100, kMostLeaves = 0.05;  // of 854×480; of the keyframe's matte
     const ImageF1 luma = luma_of(now_);
+    fits_ = shows_anything(luma);
+    if (!fits_) return {};
     stay_on_place(phi, luma);
     gain_ = scene_gain(expected_luma(), luma, moving_);
     compare();

@@ -17,12 +17,17 @@
 namespace weft {
 namespace {
 
-// How many of the pairs a plane leads to within `near` pixels.
-double share_of(const std::vector<PlacePair>& pairs, const glm::dmat3& plane, float near) {
+constexpr std::size_t kFewest = 24;  // places
+
+// Whether a plane leads more than a share `most` of the places to within `near` pixels.
+SceneMotion motion_of(const std::vector<PlacePair>& pairs, const glm::dmat3& plane, float near,
+                      double most) {
+    if (pairs.size() < kFewest) return SceneMotion::kUnknown;
     const auto hits = std::count_if(pairs.begin(), pairs.end(), [&](const PlacePair& pair) {
         return glm::length(mapped(plane, pair.from) - pair.to) < near;
     });
-    return static_cast<double>(hits) / static_cast<double>(pairs.size());
+    const bool rests = static_cast<double>(hits) > most * static_cast<double>(pairs.size());
+    return rests ? SceneMotion::kRests : SceneMotion::kMoves;
 }
 
 Matte moving_blocks(const FlowField& flow, const glm::dmat3& plane, float near,
@@ -72,7 +77,6 @@ Vec2i SceneScale::pixel(int x, int y) const {
 
 SceneStep scene_step(const FlowField& prev_from_cur, ViewF1 phi, const SceneScale& scale) {
     constexpr double kOfSurface = 0.6, kOfSurroundings = 0.4;
-    constexpr std::size_t kFewest = 24;
     constexpr float kStill_px = 1, kClear_px = 2;
     const int stride = 4 * scale.step;
     std::vector<PlacePair> surface, around;
@@ -86,13 +90,13 @@ SceneStep scene_step(const FlowField& prev_from_cur, ViewF1 phi, const SceneScal
         }
     }
     SceneStep out;
-    if (surface.size() < kFewest || around.size() < kFewest) return out;
     std::vector<PlacePair> all = surface;
     all.insert(all.end(), around.begin(), around.end());
+    if (all.size() < kFewest) return out;
     out.prev_from_cur = fit_plane(all);
     const float near = kStill_px * scale.unit_px;
-    out.surface_rests = share_of(surface, out.prev_from_cur, near) > kOfSurface;
-    out.around_rests = share_of(around, out.prev_from_cur, near) > kOfSurroundings;
+    out.surface = motion_of(surface, out.prev_from_cur, near, kOfSurface);
+    out.around = motion_of(around, out.prev_from_cur, near, kOfSurroundings);
     out.moving = moving_blocks(prev_from_cur, out.prev_from_cur, near, scale);
     return out;
 }

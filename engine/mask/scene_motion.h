@@ -1,6 +1,7 @@
 #pragma once
 // Internal to resting_scene: how the camera moves, and what moves by itself.
 
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <optional>
 
@@ -23,12 +24,15 @@ struct SceneScale {
     [[nodiscard]] Vec2i pixel(int x, int y) const;
 };
 
+/// Whether something moves as a scene does; unknown where too little of it is seen or followed.
+enum class SceneMotion : std::uint8_t { kUnknown, kRests, kMoves };
+
 /// The step of a scene from one frame to the next.
 struct SceneStep {
     glm::dmat3 prev_from_cur{1};  ///< A homography, px.
     Matte moving;                 ///< By blocks: 255 where something moves otherwise.
-    bool surface_rests = false;   ///< Most of the surface moves so …
-    bool around_rests = false;    ///< … and much of what is around it, or in front of it.
+    SceneMotion surface = SceneMotion::kUnknown;  ///< Of most of it.
+    SceneMotion around = SceneMotion::kUnknown;   ///< Of much of it, or of what is in front.
 };
 
 /// `prev_from_cur`: as measured; `phi`: the surface's signed distance, px. Both of the frame's

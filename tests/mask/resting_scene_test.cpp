@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <vector>
 
 #include "engine/mask/signed_distance.h"
 #include "tests/mask/moving_disc.h"
@@ -18,7 +20,6 @@ constexpr Recti kWall{60, 0, 250, 130};  // of the first frame; below it is a be
 constexpr int kBegins = 10;              // to move
 
 using Place = std::function<bool(Vec2 p, int t)>;
-using Color = std::function<Vec3(Vec2 p)>;
 
 // A thing that moves by itself.
 struct Thing {
@@ -30,10 +31,13 @@ struct Thing {
 struct Room {
     std::vector<Thing> things;
     Vec2 wall_step{0, 0};  // against the room
+    float pan = kRoomPan;
+    int blind_from = 1000, blind_to = 1000;  // frames without evidence: black, and not followed
 
     [[nodiscard]] Vec2 in_room(Vec2 p, int t) const {
-        return p + Vec2(kRoomPan * static_cast<float>(t), 0);
+        return p + Vec2(pan * static_cast<float>(t), 0);
     }
+    [[nodiscard]] bool is_blind(int t) const { return t >= blind_from && t < blind_to; }
     [[nodiscard]] bool is_wall(Vec2 p, int t) const {
         const Vec2 q = in_room(p, t) - static_cast<float>(t) * wall_step;
         return q.x >= kWall.x0 && q.x < kWall.x1 && q.y >= kWall.y0 && q.y < kWall.y1;
@@ -46,6 +50,7 @@ struct Room {
     [[nodiscard]] Vec3 color(Vec2 p, int t) const {
         static const WaveTexture paint(1), cloth(2), around(3);
         const Vec2 q = in_room(p, t);
+        if (is_blind(t)) return Vec3(0);
         if (const Thing* thing = thing_at(p, t)) return thing->color;
         if (is_wall(p, t)) {
             const Vec2 w = q - static_cast<float>(t) * wall_step;
@@ -85,7 +90,8 @@ struct Room {
                 const Vec2 p = centre_of(x, y);
                 const Thing* thing = t > kBegins ? thing_at(p, t) : nullptr;
                 const Vec2 own = thing ? thing->step : is_wall(p, t) ? wall_step : Vec2(0);
-                out.d.pixel(x, y)[0] = kRoomPan - own.x;
+                out.d.pixel(x, y)[0] = pan - own.x;
+                if (is_blind(t)) out.valid.at(x, y) = 0;
                 out.d.pixel(x, y)[1] = -own.y;
             }
         }
@@ -153,6 +159,16 @@ TEST(RestingScene, GivesBackWhatAPassingThingUncovers) {
     const Matte lost = room.wall(kLast, kNowhere, is_behind_board);
     EXPECT_LT(test::overlap(lost, truth), 0.6);
     EXPECT_GT(test::overlap(found.last, truth), 0.95);
+}
+
+TEST(RestingScene, KeepsWhatItKnowsThroughFramesThatShowNothing) {
+    Room room = with_board();
+    room.pan = 0;
+    room.blind_from = 18;
+    room.blind_to = 28;
+    constexpr int kLast = 36;
+    const Walk found = walk(room, kLast, kNowhere, is_behind_board);
+    EXPECT_GT(test::overlap(found.last, room.wall(kLast, kNowhere, kNowhere)), 0.95);
 }
 
 // Of two legs on the bed one was painted as wall: it jumps about.
