@@ -71,6 +71,9 @@ class OutlineMatch {
         out.lattice_px = std::max(
             4, static_cast<int>(std::lround(scale_ * static_cast<float>(stage.lattice_px))));
         out.stiffness_px = stage.stiffness_px;
+        // The picture of an outline is smooth, and no place of it is found to a tenth of a pixel.
+        out.thinned = 2;
+        out.still_px = 0.05f;
         return out;
     }
 

@@ -189,9 +189,9 @@ std::vector<Vec2> places_under(const Homography& map, const RegistrationSamples&
     return places;
 }
 
-// A prior that limits perspective to about a tenth over the region.
-void add_prior(Normal& normal, const Homography& map, double scale) {
-    const double prior = 100 * scale * scale;
+// A prior that limits perspective to about a tenth over the region. `weight`: of each sample.
+void add_prior(Normal& normal, const Homography& map, double scale, double weight) {
+    const double prior = 100 * scale * scale / weight;
     normal.a[6][6] += prior;
     normal.a[7][7] += prior;
     normal.b[6] -= prior * map.h[6];
@@ -207,7 +207,7 @@ double planar_step(const RegistrationPicture& anchor, const RegistrationSamples&
     if (residuals.size() < 200) return -1;
     const double scale = robust_spread(residuals);
     Normal normal = normal_of(map, residuals, scale, near);
-    add_prior(normal, map, scale);
+    add_prior(normal, map, scale, samples.weight);
     Vec8& b = normal.b;
     if (!solve_cholesky(normal.a, b)) return -1;
     double most = 0;
@@ -226,7 +226,7 @@ double standard_error(const RegistrationPicture& anchor, const RegistrationSampl
     if (residuals.empty()) return 0;
     const double scale = robust_spread(residuals);
     Normal normal = normal_of(map, residuals, scale, true);
-    add_prior(normal, map, scale);
+    add_prior(normal, map, scale, samples.weight);
     constexpr std::size_t kEvery = 97;
     double sum = 0, n = 0;
     for (std::size_t k = 0; k < samples.size(); k += kEvery, ++n) {
@@ -252,6 +252,8 @@ Homography about(const RegistrationPicture& cur) {
 }
 
 constexpr double kStill = 0.003;  // px: converged
+// A homography moves farther in its corners than each of its entries, of which this is the most.
+constexpr double kOfLattice = 0.3;
 
 }  // namespace
 
@@ -259,13 +261,13 @@ PlanarRegistration register_planar(const RegistrationPicture& anchor,
                                    const RegistrationPicture& cur, const LatticeField& initial,
                                    const RegistrationOptions& options) {
     PlanarRegistration out{initial, {}, false};
-    const RegistrationSamples samples = registration_samples(cur, options.samples);
+    const RegistrationSamples samples = registration_samples(cur, options.samples, options.thinned);
     if (samples.size() < 500) return out;
     Homography map = about(cur);
     if (!start_from(initial, samples, map)) return out;
     const InterpolationNoise noise = noise_between(anchor, cur, initial);
     double moved = 1;
-    for (int k = 0; k < options.iterations && moved > kStill; ++k) {
+    for (int k = 0; k < options.iterations && moved > kOfLattice * options.still_px; ++k) {
         moved = planar_step(anchor, samples, noise, false, map);
         if (moved < 0 || moved > 50) return out;
     }

@@ -28,6 +28,10 @@ struct RegistrationOptions {
     int iterations = 8;          ///< At most; stops when the map no longer changes.
     int lattice_px = 12;         ///< Spacing of the correction's nodes.
     float stiffness_px = 0.15f;  ///< The usual size of the correction's second differences, px.
+    float still_px = 0.01f;      ///< No node moves farther once the map no longer changes.
+    /// Of the samples only every so manieth along either axis is compared, and counts for those
+    /// that are left out: for pictures without fine detail.
+    int thinned = 1;
 };
 
 struct PlanarRegistration {

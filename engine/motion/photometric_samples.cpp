@@ -97,7 +97,9 @@ RegistrationPicture registration_picture(ViewU8x1 luma, ViewU8x1 visible) {
     return out;
 }
 
-RegistrationSamples registration_samples(const RegistrationPicture& picture, int most) {
+RegistrationSamples registration_samples(const RegistrationPicture& picture, int most,
+                                         int thinned) {
+    constexpr std::int64_t kEnough = 4000;
     std::int64_t count = 0;
     for (int y = 0; y < picture.inside.height(); ++y) {
         const float* row = picture.inside.row(y);
@@ -107,6 +109,11 @@ RegistrationSamples registration_samples(const RegistrationPicture& picture, int
     while (count / (static_cast<std::int64_t>(stride) * stride) > most)
         ++stride;
     RegistrationSamples samples;
+    const auto of_thinned = static_cast<std::int64_t>(stride) * thinned;
+    if (count / (of_thinned * of_thinned) >= kEnough) {
+        stride *= thinned;
+        samples.weight = static_cast<double>(thinned) * thinned;
+    }
     for (int y = 0; y < picture.inside.height(); y += stride) {
         // Rows are shifted against each other, so that no column is missed altogether.
         for (int x = (y / stride * 2) % stride; x < picture.inside.width(); x += stride) {

@@ -13,15 +13,17 @@ namespace weft {
 struct RegistrationSamples {
     std::vector<Vec2> p;       ///< Pixel centres, frame coordinates, row by row.
     std::vector<float> value;  ///< RegistrationPicture::value there.
+    double weight = 1;         ///< For how many each stands: more where they were thinned.
     [[nodiscard]] std::size_t size() const { return p.size(); }
 };
 
 /// The side of the two box filters that make the local mean, px, at a frame's width.
 [[nodiscard]] int local_window(int width);
 
-/// A regular grid of the region's inner pixels, at most about `most` of them.
-[[nodiscard]] RegistrationSamples registration_samples(const RegistrationPicture& picture,
-                                                       int most);
+/// A regular grid of the region's inner pixels, at most about `most` of them; of these every
+/// `thinned`th along either axis, if thousands are left.
+[[nodiscard]] RegistrationSamples registration_samples(const RegistrationPicture& picture, int most,
+                                                       int thinned = 1);
 
 /// The samples' places in the anchor.
 [[nodiscard]] std::vector<Vec2> places_under(const LatticeField& anchor_from_cur,

@@ -11,14 +11,15 @@
 namespace weft {
 namespace {
 
-// Adds the residuals to the system of a lattice.
-void fill(BendingSystem& system, const std::vector<RegistrationResidual>& residuals, double scale) {
+// Adds the residuals to the system of a lattice, each of which counts `weight` times.
+void fill(BendingSystem& system, const std::vector<RegistrationResidual>& residuals, double scale,
+          double weight) {
     NoiseInResiduals noise;
     for (const RegistrationResidual& t : residuals)
         noise.add(t, cauchy(t.r / scale));
     const double half = 0.5 * noise.variance();
     for (const RegistrationResidual& t : residuals) {
-        const double w = cauchy(t.r / scale) / (scale * scale);
+        const double w = weight * cauchy(t.r / scale) / (scale * scale);
         const double x = t.gradient.x, y = t.gradient.y;
         system.measure(t.p, {w * x * x, w * x * y, w * y * y},
                        {w * (half * t.noise.x - t.r * x), w * (half * t.noise.y - t.r * y)});
@@ -30,7 +31,7 @@ void fill(BendingSystem& system, const std::vector<RegistrationResidual>& residu
 LatticeField register_lattice(const RegistrationPicture& anchor, const RegistrationPicture& cur,
                               const LatticeField& initial, const RegistrationOptions& options) {
     LatticeField field = initial;
-    const RegistrationSamples samples = registration_samples(cur, options.samples);
+    const RegistrationSamples samples = registration_samples(cur, options.samples, options.thinned);
     if (samples.size() < 100) return field;
     // Neighbouring residuals are correlated, two or three at a time.
     constexpr double kIndependent = 0.4;
@@ -43,7 +44,7 @@ LatticeField register_lattice(const RegistrationPicture& anchor, const Registrat
         if (residuals.size() < 100) return initial;
         LatticeField correction(initial.full_size(), options.lattice_px);
         BendingSystem system(correction);
-        fill(system, residuals, robust_spread(residuals) / std::sqrt(kIndependent));
+        fill(system, residuals, robust_spread(residuals) / std::sqrt(kIndependent), samples.weight);
         corrected.resize(system.count());
         const auto& x = system.solve(corrected, stiffness, 60);
         float most = 0;
@@ -65,7 +66,7 @@ LatticeField register_lattice(const RegistrationPicture& anchor, const Registrat
             for (int i = 0; i < field.nodes().width(); ++i)
                 field.set_node(i, j, field.node(i, j) + fine.node(i, j));
         }
-        if (most < 0.01f) break;
+        if (most < options.still_px) break;
     }
     return field;
 }

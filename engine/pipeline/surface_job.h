@@ -2,6 +2,8 @@
 // Internal to follow_surfaces(): the regions on their way through the sweeps, and the sweeps.
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 #include <optional>
 #include <set>
 #include <vector>
@@ -34,6 +36,8 @@ struct SurfaceJob {
     bool coords = false, shading = false, paper = false, grain = false, shutter = false;
 
     std::optional<SurfaceTrack> track;
+    // Whether the walk will likely ask for outlines: read while steps are gathered ahead of it.
+    std::shared_ptr<std::atomic<bool>> asks_outline = std::make_shared<std::atomic<bool>>(true);
     bool bends = false;           // an earlier walk of the surface has refuted that it is a plane
     std::optional<Hash128> walk;  // names all that led to the track, if walks are kept
     int walked_to = 0, anchored_at = 0;  // frames: the last one, and where the walk is anchored

@@ -6,6 +6,7 @@
 #include "engine/core/parallel.h"
 #include "engine/pipeline/motion_zones.h"
 #include "engine/pipeline/walk_memory.h"
+#include "engine/temporal/outline_evidence.h"
 
 namespace weft {
 
@@ -107,11 +108,13 @@ SurfaceStops::Gather SurfaceStops::begin_step(const SurfaceJob& job, Before& bef
     stop.step = WalkStep{before.frame, {}};
     return [prev, motion = at.prev_from_cur, quality = context_.plan.quality,
             walks = context_.plan.keep_walks ? walks : nullptr, key = before.key, frame = at.frame,
-            previous = before.number](SurfaceStop& s) {
+            previous = before.number, asks_outline = job.asks_outline](SurfaceStop& s) {
         static_cast<void>(s.step->frame->picture());  // the walk registers it
         if (prev && motion) {
-            s.step->evidence = step_evidence(*prev, *s.step->frame, motion->get(), quality);
-            s.step->evidence.raw = {motion, &motion->get()};
+            StepEvidence& evidence = s.step->evidence;
+            evidence = step_evidence(prev, s.step->frame, {motion, &motion->get()}, quality);
+            // Only when it is found depends on where the walk is, not what is found.
+            if (evidence.open && *asks_outline) static_cast<void>(evidence.open->whole());
         }
         if (walks && (!prev || motion)) walks->keep_step(key, frame, previous, *s.step);
         return Status{};

@@ -60,11 +60,13 @@ std::shared_ptr<const StepFrame> step_frame(const PlateViews& views, const Matte
         prev);
 }
 
-StepEvidence step_evidence(const StepFrame& prev, const StepFrame& cur,
-                           const FlowField& prev_from_cur, FlowQuality quality) {
+StepEvidence step_evidence(std::shared_ptr<const StepFrame> prev,
+                           std::shared_ptr<const StepFrame> cur,
+                           std::shared_ptr<const FlowField> prev_from_cur, FlowQuality quality) {
     const SurfaceWalkerOptions options =
-        walker_options(cur.size(), SurfaceTrack::Motion::kEstimated, quality);
-    return gather_evidence(prev, cur, prev_from_cur, quality, options.spacing_px);
+        walker_options(cur->size(), SurfaceTrack::Motion::kEstimated, quality);
+    return picture_evidence(std::move(prev), std::move(cur), std::move(prev_from_cur), quality,
+                            options.spacing_px);
 }
 
 WalkStep exact_step(const PlateViews& views, const Matte& visible, const FlowField& prev_from_cur) {

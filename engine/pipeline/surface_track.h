@@ -16,10 +16,12 @@ namespace weft {
                                                           const Matte& visible, const Matte& extent,
                                                           const StepFrame* prev);
 
-/// What raw motion, of the size of PlateViews::followed(), says of the step from `prev` to `cur`.
-/// Pure as gather_evidence().
-[[nodiscard]] StepEvidence step_evidence(const StepFrame& prev, const StepFrame& cur,
-                                         const FlowField& prev_from_cur, FlowQuality quality);
+/// What raw motion, of the size of PlateViews::followed(), says of the step from `prev` to `cur`;
+/// what the outline says is left open (picture_evidence()).
+[[nodiscard]] StepEvidence step_evidence(std::shared_ptr<const StepFrame> prev,
+                                         std::shared_ptr<const StepFrame> cur,
+                                         std::shared_ptr<const FlowField> prev_from_cur,
+                                         FlowQuality quality);
 
 /// The step to a frame from exact motion, all of the plate's size. Pure.
 [[nodiscard]] WalkStep exact_step(const PlateViews& views, const Matte& visible,
@@ -53,6 +55,8 @@ class SurfaceTrack {
 
     [[nodiscard]] const LatticeField& ref_from_cur() const;
     [[nodiscard]] const LatticeField& prev_from_cur() const;
+    /// As SurfaceWalker's.
+    [[nodiscard]] bool asks_outline() const { return walker_.asks_outline(); }
     /// As SurfaceWalker's.
     [[nodiscard]] bool is_plane() const { return walker_.is_plane(); }
     /// As SurfaceWalker's; fields are finer where there are any.

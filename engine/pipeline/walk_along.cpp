@@ -42,23 +42,7 @@ SurfaceKind kind_of(SurfaceJob& job) {
     return said == SurfaceKind::kFound ? SurfaceKind::kBody : SurfaceKind::kCloth;
 }
 
-}  // namespace
-
-void begin_walk(SurfaceJob& job, const PlateViews& views, const SurfaceStop& stop,
-                FlowQuality quality, const LatticeField* base) {
-    const SurfaceKind kind = kind_of(job);
-    job.walk.reset();
-    if (stop.key) {
-        Name name(Did::kBegin);
-        name.add(kind).add(*stop.key);
-        if (base) name.add(*base);
-        job.walk = name.finish();
-    }
-    job.track.emplace(views, stop.visible, stop.extent, motion_of(*job.plan), kind, quality, base,
-                      stop.step ? stop.step->frame : nullptr);
-}
-
-void walk_on(SurfaceJob& job, const SurfaceStop& stop, bool hide, const ShotPlan& plan) {
+void walk_step(SurfaceJob& job, const SurfaceStop& stop, bool hide, const ShotPlan& plan) {
     const bool named = plan.walks && job.walk && stop.key;
     if (!named) {
         job.walk.reset();
@@ -81,6 +65,28 @@ void walk_on(SurfaceJob& job, const SurfaceStop& stop, bool hide, const ShotPlan
     if (!plan.keep_walks) return;
     plan.walks->keep_track(name, track);
     if (!job.track->stretched()) plan.walks->keep_track(plainly, track);
+}
+
+}  // namespace
+
+void begin_walk(SurfaceJob& job, const PlateViews& views, const SurfaceStop& stop,
+                FlowQuality quality, const LatticeField* base) {
+    const SurfaceKind kind = kind_of(job);
+    job.walk.reset();
+    *job.asks_outline = true;
+    if (stop.key) {
+        Name name(Did::kBegin);
+        name.add(kind).add(*stop.key);
+        if (base) name.add(*base);
+        job.walk = name.finish();
+    }
+    job.track.emplace(views, stop.visible, stop.extent, motion_of(*job.plan), kind, quality, base,
+                      stop.step ? stop.step->frame : nullptr);
+}
+
+void walk_on(SurfaceJob& job, const SurfaceStop& stop, bool hide, const ShotPlan& plan) {
+    walk_step(job, stop, hide, plan);
+    *job.asks_outline = job.track->asks_outline();
 }
 
 void hold_walk(SurfaceJob& job) {

@@ -26,13 +26,36 @@ RigidPlane::RigidPlane(SurfaceKind kind)
     : believed_(kind != SurfaceKind::kCloth && kind != SurfaceKind::kBody),
       said_(kind == SurfaceKind::kPlane) {}
 
-bool RigidPlane::is_settled() const {
+bool RigidPlane::is_borne_out() const {
     constexpr int kFrames = 6;
-    return said_ || (believed_ && borne_out_ >= kFrames);
+    return borne_out_ >= kFrames;
+}
+
+bool RigidPlane::may_be_taken_for_granted() const {
+    constexpr int kEvery = 4;
+    return believed_ && is_borne_out() && against_ == 0 && granted_ + 1 < kEvery;
+}
+
+std::optional<Registered> RigidPlane::taken_for_granted(const Anchor& anchor, const StepFrame& cur,
+                                                        bool by_color, const LatticeField& initial,
+                                                        FlowQuality quality) {
+    constexpr double kMoreResidual = 1.1, kLessShare = 0.9;
+    const RegisteredPictures pictures = pictures_of(anchor, cur, by_color);
+    const RegistrationOptions options = planar_options(quality);
+    PlanarRegistration plane = register_planar(pictures.there, pictures.here, initial, options);
+    if (!plane.found || !shows_surface(plane.fit) ||
+        plane.fit.residual > kMoreResidual * asked_.residual ||
+        plane.fit.share < kLessShare * asked_.share)
+        return std::nullopt;
+    ++granted_;
+    return Registered{refine_planar(pictures.there, pictures.here, plane.anchor_from_cur, options),
+                      plane.fit, true};
 }
 
 void RigidPlane::note(bool speaks_against, const RegistrationFit& fit) {
     constexpr double kRefuted = 2, kForgotten = 0.5;
+    asked_ = fit;
+    granted_ = 0;
     // A frame that shows nothing says nothing for it either.
     if (!speaks_against && shows_surface(fit)) ++borne_out_;
     against_ = speaks_against ? against_ + 1 : std::max(0.0, against_ - kForgotten);

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/core/smooth_step.h"
 #include "engine/motion/contour_flow.h"
 #include "engine/motion/flat_motion.h"
-#include "engine/motion/outline_owner.h"
 #include "engine/motion/photometric_register.h"
-#include "engine/motion/stripes.h"
 #include "engine/motion/surface_fit.h"
 #include "engine/motion/surface_flow.h"
+#include "engine/temporal/outline_evidence.h"
 #include "engine/temporal/tiny_surface.h"
 
 namespace weft {
@@ -40,18 +38,6 @@ LatticeField flat_or_bent(const StepFrame& prev, const StepFrame& cur,
     return lead.errors < kOfChance ? flat : bent;
 }
 
-LatticeField by_outline(const StepFrame& prev, const StepFrame& cur, int spacing_px) {
-    const OutlineView before = prev.view(), now = cur.view();
-    const FlowField motion =
-        estimate_contour_flow(now.luma, now.extent, before.luma, before.extent);
-    SurfaceFitOptions fit;
-    fit.spacing_px = spacing_px;
-    fit.finest_px = 12;
-    fit.correlation_px = 4;
-    return register_outline(prev.outline(), cur.outline(),
-                            fit_surface_motion(motion.d, motion.valid, fit));
-}
-
 Matte copy_of(ViewU8x1 v) {
     Matte out(v.size());
     for (int y = 0; y < v.height(); ++y)
@@ -74,12 +60,6 @@ double known_share(const FlowField& flow, ViewU8x1 visible) {
     }
     return inside == 0 ? 0 : static_cast<double>(known) / static_cast<double>(inside);
 }
-
-// Motion that was fitted to the pictures that judge it leads before any other one by chance, too.
-// By the median over a shot of the lead less the bias: walls, coats and a torso have 3.5 to 16,
-// cars of plain paint that turn 0.9 to 1.8. (blender_fox_gt's fox, whose speckle is new in each
-// frame, leads by -2.9 to 0.6, flat drawn fills by -5 to 0.4.)
-constexpr double kOfTheFit = 2.6;
 
 // Adds the motion of the colours, which both frames have. Shades move over luma, and not over
 // these.
@@ -116,95 +96,6 @@ void add_freed(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
     out.freed_lead =
         steadier + std::clamp(registration_lead(there, here, *out.by_freed, out.by_picture).errors,
                               -kMostErrors, kMostErrors);
-}
-
-}  // namespace
-
-namespace {
-
-// If the picture shows paint, going as far to the other side of its motion finds as little as the
-// outline's motion does; if it shows more on the outline's side, that counts against the picture,
-// unless its motion finds very much more than the outline's. `of_chance`: what is taken off where
-// it does; else kOfTheFit.
-double lead_of(const RegistrationPicture& before, const RegistrationPicture& now,
-               const LatticeField& picture, const LatticeField& outline, double of_chance) {
-    constexpr double kMostBias = 2;
-    constexpr float kOtherSide = -1;  // picture + (picture - outline)
-    // In correlation, in the mean over a shot: cars of plain paint gain 0.03 at most (in a single
-    // step 0.06), walls, coats and a torso 0.05 to 0.4.
-    constexpr float kLittle = 0.04f, kMuch = 0.1f, kFarMore = 0.2f;
-    const RegistrationLead lead = registration_lead(before, now, picture, outline);
-    if (lead.errors == 0) return 0;  // too little can be compared
-    const auto gain = static_cast<float>(lead.gain);
-    const auto far_more = static_cast<double>(smooth_step(gain, kMuch, kFarMore));
-    const double beyond = lead.errors - (kOfTheFit + far_more * (of_chance - kOfTheFit));
-    const float doubtful = 1.0f - smooth_step(gain, kLittle, kMuch);
-    if (!(doubtful > 0)) return beyond;
-    const LatticeField other_side = mix(picture, outline, kOtherSide);
-    const double bias = registration_lead(before, now, outline, other_side).errors;
-    return beyond - static_cast<double>(doubtful) * std::clamp(bias, 0.0, kMostBias);
-}
-
-// How much of an outline is an occluder's, as standard errors for the picture. Torsos between arms
-// have 0.2 to 0.6 and a wall behind a walker 0.6 to 0.95, cars that turn 0.25 at most in the mean.
-double against_outline(double occluded_share, double most) {
-    constexpr double kOwn = 0.2, kForEachShare = 20;
-    return std::clamp(kForEachShare * (occluded_share - kOwn), 0.0, most);
-}
-
-}  // namespace
-
-double picture_lead(const RegistrationPicture& before, const RegistrationPicture& now,
-                    const LatticeField& picture, const LatticeField& outline) {
-    constexpr double kOfChance = 1;
-    return lead_of(before, now, picture, outline, kOfChance);
-}
-
-namespace {
-
-// A shade that moves over stripes takes the plate's motion along, for the stripes do not hold it,
-// and finds itself again there in every frame. That motion leaves the outline behind; the one that
-// is freed of light keeps to it. By how much more the plate's departs, as standard errors for the
-// freed one.
-double shade_lead(float plate_departs_px, float freed_departs_px, int width) {
-    constexpr double kMost = 6;
-    constexpr float kNone_px = 2, kClear_px = 6;  // a step, of a frame 480 wide
-    const float unit = static_cast<float>(width) / 480;
-    const float more = (plate_departs_px - freed_departs_px) / unit;
-    return kMost * static_cast<double>(smooth_step(more, kNone_px, kClear_px));
-}
-
-// Along stripes raw motion says nothing, but follows noise, or stands still.
-void add_lines(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,
-               int spacing_px, StepEvidence& out) {
-    const OutlineView now = cur.view();
-    const Stripes stripes = stripes_of(now.luma, now.visible);
-    if (!(stripes.share > 0)) return;
-    const LatticeField outline = by_outline(prev, cur, spacing_px);
-    const auto occluded_by = [&](const LatticeField& picture) {
-        return occluded_share(now.luma, now.extent, outline, picture, prev_from_cur, stripes.along);
-    };
-    // A shade confuses what an outline moves with: of a cloth under one 0 to 0.43.
-    constexpr double kMostlyOwn = 0.5;
-    const Stripes painted = out.by_freed ? stripes_of(cur.picture()) : Stripes{};
-    if (painted.share > 0 && occluded_by(*out.by_freed) < kMostlyOwn) {
-        const auto held = [&](const LatticeField& motion) {
-            return along_stripes(motion, outline, now.extent, painted);
-        };
-        const LatticeField held_freed = held(*out.by_freed);
-        *out.freed_lead +=
-            shade_lead(departure(out.by_picture, held(out.by_picture), now.visible),
-                       departure(*out.by_freed, held_freed, now.visible), now.visible.width());
-        out.by_freed = held_where_dragged(*out.by_freed, held_freed);
-    }
-    const bool freed = out.by_freed && *out.freed_lead > 0;
-    const LatticeField& picture = freed ? *out.by_freed : out.by_picture;
-    out.by_lines = along_stripes(picture, outline, now.extent, stripes);
-    // Along its lines a picture finds itself again anywhere.
-    out.lines_lead = lead_of(prev.picture(), cur.picture(), picture, *out.by_lines, kOfTheFit);
-    constexpr double kMostOfIt = 4;
-    const double occluded = occluded_by(picture);
-    if (out.lines_lead != 0) out.lines_lead += against_outline(occluded, kMostOfIt);
 }
 
 }  // namespace
@@ -279,16 +170,12 @@ const OutlineShape& StepFrame::outline() const {
     return *outline_;
 }
 
-StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
-                             const FlowField& prev_from_cur, FlowQuality quality, int spacing_px) {
-    constexpr float kEnough = 1.25f;
+namespace {
+
+// What the picture inside says. Returns structure_to_noise().
+float add_picture(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,
+                  FlowQuality quality, int spacing_px, StepEvidence& out) {
     const OutlineView before = prev.view(), now = cur.view();
-    StepEvidence out;
-    out.by_picture = flat_or_bent(prev, cur, prev_from_cur, spacing_px);
-    if (is_tiny(prev) && is_tiny(cur)) {
-        out.by_picture = tiny_motion(prev, cur, out.by_picture, by_outline(prev, cur, spacing_px));
-        return out;
-    }
     // Where the surface is found again almost everywhere, nothing is left to be explained; but
     // shades alone are found again, too, and leave its colours behind.
     constexpr double kAlmostEverywhere = 0.95, kLeftBehind = 0.6;
@@ -304,24 +191,40 @@ StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
     // A drawn fill shows no parts (0.0), a figure on a large, soft plate does (0.9 to 1.2).
     constexpr float kShowsParts = 0.8f;
     if (structure >= kShowsParts) out.parts = find_moving_parts(prev_from_cur, now.visible);
-    if (structure >= kEnough) {
-        add_lines(prev, cur, prev_from_cur, spacing_px, out);
+    return structure;
+}
+
+}  // namespace
+
+StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
+                             const FlowField& prev_from_cur, FlowQuality quality, int spacing_px) {
+    StepEvidence out;
+    out.by_picture = flat_or_bent(prev, cur, prev_from_cur, spacing_px);
+    if (is_tiny(prev) && is_tiny(cur)) {
+        out.by_picture =
+            tiny_motion(prev, cur, out.by_picture, outline_motion(prev, cur, spacing_px));
         return out;
     }
-    // Faint plaster and a flat fill have as little structure for one pixel. What is faint is found
-    // again by its own motion all the same, and by the outline's only where that is right.
-    out.by_outline = by_outline(prev, cur, spacing_px);
-    // Freed of light, grain is as strong as any structure, and the plate's motion is the steadier.
-    constexpr double kGrain = 1;
-    if (out.freed_lead) *out.freed_lead -= kGrain;
-    const bool freed = out.by_freed && *out.freed_lead > 0;
-    const LatticeField& picture = freed ? *out.by_freed : out.by_picture;
-    out.lead = picture_lead(prev.picture(), cur.picture(), picture, *out.by_outline);
-    // Where arms end what is seen of a torso, its outline moves with them.
-    constexpr double kMostOfIt = 3;
-    const double occluded =
-        occluded_share(now.luma, now.extent, *out.by_outline, picture, prev_from_cur);
-    if (out.lead != 0) out.lead += against_outline(occluded, kMostOfIt);
+    const float structure = add_picture(prev, cur, prev_from_cur, quality, spacing_px, out);
+    add_outline(prev, cur, prev_from_cur, structure, spacing_px, out);
+    return out;
+}
+
+StepEvidence picture_evidence(std::shared_ptr<const StepFrame> prev,
+                              std::shared_ptr<const StepFrame> cur,
+                              std::shared_ptr<const FlowField> prev_from_cur, FlowQuality quality,
+                              int spacing_px) {
+    StepEvidence out;
+    if (is_tiny(*prev) && is_tiny(*cur)) {
+        out = gather_evidence(*prev, *cur, *prev_from_cur, quality, spacing_px);
+        out.raw = std::move(prev_from_cur);
+        return out;
+    }
+    out.by_picture = flat_or_bent(*prev, *cur, *prev_from_cur, spacing_px);
+    const float structure = add_picture(*prev, *cur, *prev_from_cur, quality, spacing_px, out);
+    out.raw = std::move(prev_from_cur);
+    out.open = std::make_shared<const OutlineEvidence>(out, std::move(prev), std::move(cur),
+                                                       structure, spacing_px);
     return out;
 }
 

@@ -51,6 +51,8 @@ class StepFrame {
     mutable std::optional<OutlineShape> outline_;
 };
 
+class OutlineEvidence;
+
 /// What two neighbouring frames of a walk say of the step between them. It does not depend on where
 /// the walk has led, so it can be gathered ahead of it.
 struct StepEvidence {
@@ -72,6 +74,8 @@ struct StepEvidence {
     /// and the plate's raw motion, from which they are told (set by who has it; null: no parts).
     MovingParts parts = {};
     std::shared_ptr<const FlowField> raw = {};
+    /// What the outline adds to this, where nobody has asked for it yet; else null.
+    std::shared_ptr<const OutlineEvidence> open = {};
 };
 
 /// How far motion that was fitted to two pictures leads before the outline's, in standard errors
@@ -88,6 +92,13 @@ struct StepEvidence {
 [[nodiscard]] StepEvidence gather_evidence(const StepFrame& prev, const StepFrame& cur,
                                            const FlowField& prev_from_cur, FlowQuality quality,
                                            int spacing_px);
+
+/// The same without the outline, which takes most of the time: that is left open. The result shares
+/// what is passed.
+[[nodiscard]] StepEvidence picture_evidence(std::shared_ptr<const StepFrame> prev,
+                                            std::shared_ptr<const StepFrame> cur,
+                                            std::shared_ptr<const FlowField> prev_from_cur,
+                                            FlowQuality quality, int spacing_px);
 
 /// Which motion a surface follows: of the picture inside it, from the plate or freed of light, or
 /// of its outline. One frame says little, so leads are averaged, and a choice changes only where

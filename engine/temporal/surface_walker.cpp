@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/motion/flat_motion.h"
+#include "engine/temporal/outline_evidence.h"
 #include "engine/temporal/stretch_limit.h"
 #include "engine/temporal/tiny_surface.h"
 #include "engine/temporal/walk_state.h"
@@ -67,16 +68,21 @@ Registered SurfaceWalker::State::against(const Anchor& anchor, const StepFrame& 
     return alike ? std::move(*alike) : std::move(found);
 }
 
-// Against the present anchor, with all that can be learnt from it.
-Registered SurfaceWalker::State::against_present(const StepFrame& cur) {
-    const Anchor& anchor = anchors.present();
-    if (is_tiny(cur) && is_tiny(*anchor.frame)) return register_tiny(anchor, cur, anchor_from_cur);
+// How well the step explains the frame says how noisy the frames are.
+void SurfaceWalker::State::note_step(const StepFrame& cur) {
     RegistrationOptions few;
     few.samples = 20000;
     const bool colors = choice.by_color() && last->has_color() && cur.has_color();
     lost_places.note(registration_fit(colors ? last->color_picture() : last->picture(),
                                       colors ? cur.color_picture() : cur.picture(), prev_from_cur,
                                       few));
+}
+
+// Against the present anchor, with all that can be learnt from it.
+Registered SurfaceWalker::State::against_present(const StepFrame& cur) {
+    const Anchor& anchor = anchors.present();
+    if (is_tiny(cur) && is_tiny(*anchor.frame)) return register_tiny(anchor, cur, anchor_from_cur);
+    note_step(cur);
     if (!choice.by_color()) exposure.learn(anchor, cur, prev_from_cur, anchor_from_cur);
     Registered found = against(anchor, cur, prev_from_cur, anchor_from_cur);
     auto wider =
@@ -93,17 +99,40 @@ std::optional<RegistrationFit> SurfaceWalker::State::lay_as_plane(const StepFram
     const auto laid = plane.registered(anchors.present(), cur, choice.by_color(), expected, found,
                                        options.quality);
     if (!laid) return std::nullopt;
-    correct(anchors.present_index(),
-            flattened(mix(expected, laid->anchor_from_cur, kPlanarGain), visible));
-    prev_from_cur = flattened(prev_from_cur, visible);
+    lay(expected, laid->anchor_from_cur, visible);
     return laid->fit;
+}
+
+// The same without asking first what bends, where it need not be asked.
+std::optional<RegistrationFit> SurfaceWalker::State::lay_as_settled_plane(const StepFrame& cur) {
+    if (is_tiny(cur) || exposure.open_share() > 0 || !plane.may_be_taken_for_granted())
+        return std::nullopt;
+    const ViewU8x1 visible = cur.view().visible;
+    const LatticeField expected = flattened(anchor_from_cur, visible);
+    const auto laid = plane.taken_for_granted(anchors.present(), cur, choice.by_color(), expected,
+                                              options.quality);
+    if (!laid) return std::nullopt;
+    note_step(cur);
+    lay(expected, laid->anchor_from_cur, visible);
+    return laid->fit;
+}
+
+void SurfaceWalker::State::lay(const LatticeField& expected, const LatticeField& registered,
+                               ViewU8x1 visible) {
+    correct(anchors.present_index(), flattened(mix(expected, registered, kPlanarGain), visible));
+    prev_from_cur = flattened(prev_from_cur, visible);
 }
 
 void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>& cur) {
     const ViewU8x1 visible = cur->view().visible;
-    Registered found = against_present(*cur);
-    if (const auto as_plane = lay_as_plane(*cur, found)) {
-        // A plane that turns away is foreshortened, not stretched.
+    Registered found;
+    // A plane that turns away is foreshortened, not stretched.
+    std::optional<RegistrationFit> as_plane = lay_as_settled_plane(*cur);
+    if (!as_plane) {
+        found = against_present(*cur);
+        as_plane = lay_as_plane(*cur, found);
+    }
+    if (as_plane) {
         found.fit = *as_plane;
     } else {
         correct(anchors.present_index(), mix(anchor_from_cur, found.anchor_from_cur,
@@ -126,6 +155,12 @@ void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>
         since_older_tried = 0;
         try_others(*cur, anchors.present().generation, kEnough);
     }
+}
+
+// What the walk goes by. The outline of what was borne out as a plane is not asked: its picture
+// binds it.
+const StepEvidence& SurfaceWalker::State::evidence_of(const WalkStep& to) const {
+    return to.evidence.open && asks_outline() ? to.evidence.open->whole() : to.evidence;
 }
 
 bool SurfaceWalker::State::may_have_parts() const {
@@ -240,12 +275,13 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
     };
     // A part that has just come into view has no motion yet, and says nothing for either choice.
     MotionChoice unchanged = s.choice;
-    StepMotion step = choose_motion(to.evidence, was_hidden ? unchanged : s.choice);
+    const StepEvidence& evidence = s.evidence_of(to);
+    StepMotion step = choose_motion(evidence, was_hidden ? unchanged : s.choice);
     // What shows nothing but its outline may be any drawing; but a plane that was borne out keeps
     // its picture, though it is faint for a moment.
     if (step.by_outline && !s.plane.is_said()) {
         if (s.plane.is_settled())
-            step = {to.evidence.by_picture};
+            step = {evidence.by_picture};
         else
             s.plane.refute();
     }
@@ -312,6 +348,10 @@ void SurfaceWalker::keep_on_anchors(ViewU8x1 own) {
         }
         return anchor.frame->part(kept, anchor.frame.get());
     });
+}
+
+bool SurfaceWalker::asks_outline() const {
+    return state_->asks_outline();
 }
 
 bool SurfaceWalker::is_plane() const {

@@ -86,6 +86,8 @@ class SurfaceWalker {
     /// What the earlier frames against which it registers show beside `own` is no longer of this
     /// surface. `own`: its part of the last frame, H×W, 255 or 0.
     void keep_on_anchors(ViewU8x1 own);
+    /// Whether it will likely ask what the outline says of the next step, which may be found ahead.
+    [[nodiscard]] bool asks_outline() const;
     /// Whether the surface is taken for one rigid plane so far (RigidPlane): ref_from_cur() is a
     /// homography where it is seen.
     [[nodiscard]] bool is_plane() const;

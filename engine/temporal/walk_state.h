@@ -109,7 +109,12 @@ struct SurfaceWalker::State {
     void find_late(const std::shared_ptr<const StepFrame>& cur);
     void wait_out_of_view();
     void search(const std::shared_ptr<const StepFrame>& cur, std::int64_t visible_px);
+    [[nodiscard]] bool asks_outline() const { return !plane.believed() || !plane.is_borne_out(); }
+    [[nodiscard]] const StepEvidence& evidence_of(const WalkStep& to) const;
+    void note_step(const StepFrame& cur);
     std::optional<RegistrationFit> lay_as_plane(const StepFrame& cur, const Registered& found);
+    std::optional<RegistrationFit> lay_as_settled_plane(const StepFrame& cur);
+    void lay(const LatticeField& expected, const LatticeField& registered, ViewU8x1 visible);
     void register_frame(const std::shared_ptr<const StepFrame>& cur);
     void register_drawing(const StepFrame& cur);
     bool advance_parts(const SurfaceWalker& whole, const WalkStep& to);

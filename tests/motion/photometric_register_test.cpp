@@ -149,6 +149,25 @@ TEST(RegisterLattice, FollowsFolds) {
     }
 }
 
+// Else the prior would outweigh them, and folds be smoothed.
+TEST(RegisterLattice, ThinnedSamplesCountForThoseThatAreLeftOut) {
+    const Pair p = pair(folded, false);
+    const RegistrationPicture anchor = registration_picture(p.anchor, p.visible);
+    const RegistrationPicture cur = registration_picture(p.frame, p.visible);
+    RegistrationOptions stiff;
+    stiff.stiffness_px = 0.004f;
+    const auto error = [&](int samples, int thinned) {
+        stiff.samples = samples;
+        stiff.thinned = thinned;
+        return mean_map_error(register_lattice(anchor, cur, roughly(folded), stiff), folded,
+                              kInner);
+    };
+    constexpr int kEverySample = 100000, kOneInFour = 20000;
+    const float all = error(kEverySample, 1);
+    EXPECT_LT(error(kEverySample, 2), 1.15f * all);
+    EXPECT_GT(error(kOneInFour, 1), 1.15f * all) << "as few that count for themselves";
+}
+
 TEST(RegisterLattice, ABlankPlaceFollowsItsSurroundings) {
     const Map shift = [](Vec2 p) { return p + Vec2(2, 1); };
     Pair p = pair(shift, false);

@@ -33,7 +33,7 @@ Vec2 waving(Vec2 p, int t) {
 }
 
 struct Walked {
-    bool is_plane = false;
+    bool is_plane = false, asks_outline = false;
     float off_plane_px = 0, error_px = 0;  // of the last frame, the most
 };
 
@@ -47,7 +47,7 @@ float striped(Vec2 p, const WaveTexture& faint) {
     return 0.5f + 0.25f * std::sin(p.x / 2) + 0.06f * (faint(p) - 0.5f);
 }
 
-Walked walk_along(const Back& back, bool with_jumper, SurfaceKind kind) {
+Walked walk_along(const Back& back, bool with_jumper, SurfaceKind kind, int frames = kWallFrames) {
     const WaveTexture wall(21), jumper(22);
     const auto luma_at = [&](int t) {
         return draw(kWallFrame, [&](Vec2 p) {
@@ -60,18 +60,18 @@ Walked walk_along(const Back& back, bool with_jumper, SurfaceKind kind) {
     SurfaceWalkerOptions options;
     options.kind = kind;
     SurfaceWalker walker(luma_at(0), all, options);
-    for (int t = 1; t < kWallFrames; ++t)
+    for (int t = 1; t < frames; ++t)
         walker.advance(luma_at(t), all, flow_between(luma_at(t), luma_at(t - 1)));
-    Walked out{walker.is_plane()};
+    Walked out{walker.is_plane(), walker.asks_outline()};
     const LatticeField& found = walker.ref_from_cur();
     const LatticeField plane = flattened(found, all);
     for (int y = 24; y < kWallFrame.height - 24; y += 4) {
         for (int x = 24; x < kWallFrame.width - 48; x += 4) {
             const Vec2 p = centre_of(x, y);
-            if (with_jumper && is_jumper(p, kWallFrames - 1)) continue;
+            if (with_jumper && is_jumper(p, frames - 1)) continue;
             const Vec2 at = p + found.at(p);
             out.off_plane_px = std::max(out.off_plane_px, distance(found.at(p), plane.at(p)));
-            out.error_px = std::max(out.error_px, distance(at, back(p, kWallFrames - 1)));
+            out.error_px = std::max(out.error_px, distance(at, back(p, frames - 1)));
         }
     }
     return out;
@@ -90,6 +90,31 @@ TEST(RigidPlane, WhatBendsRefutesIt) {
     const Walked found = walk_along(waving, false, SurfaceKind::kFound);
     EXPECT_FALSE(found.is_plane);
     EXPECT_LT(found.error_px, 1.0f);
+}
+
+// Once it has been borne out it is asked on some frames only whether it bends.
+TEST(RigidPlane, WhatBendsLateRefutesItStill) {
+    constexpr int kLong = 16, kStill = 8;
+    const auto late = [](Vec2 p, int t) {
+        const float swing = 0.25f * static_cast<float>(std::max(0, t - kStill));
+        return panned(p, t) + swing * Vec2(std::sin(p.y / 22), std::sin(p.x / 26));
+    };
+    const Walked before = walk_along(late, false, SurfaceKind::kFound, kStill + 1);
+    EXPECT_TRUE(before.is_plane);
+    EXPECT_FALSE(before.asks_outline);
+    EXPECT_LT(before.error_px, 0.1f);
+    const Walked found = walk_along(late, false, SurfaceKind::kFound, kLong);
+    EXPECT_FALSE(found.is_plane);
+    EXPECT_TRUE(found.asks_outline);
+    EXPECT_LT(found.error_px, 1.0f);
+}
+
+TEST(RigidPlane, AsksItsOutlineUntilItIsBorneOut) {
+    constexpr int kFew = 4, kMany = 8;
+    EXPECT_TRUE(walk_along(panned, false, SurfaceKind::kFound, kFew).asks_outline);
+    EXPECT_TRUE(walk_along(panned, false, SurfaceKind::kPlane, kFew).asks_outline);
+    EXPECT_FALSE(walk_along(panned, false, SurfaceKind::kFound, kMany).asks_outline);
+    EXPECT_TRUE(walk_along(panned, false, SurfaceKind::kCloth, kMany).asks_outline);
 }
 
 TEST(RigidPlane, WhatIsSaidHoldsAgainstThePicture) {

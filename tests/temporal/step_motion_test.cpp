@@ -2,15 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <memory>
 #include <numbers>
 
 #include "engine/core/luma.h"
 #include "engine/core/rng.h"
 #include "engine/motion/contour_flow.h"
 #include "engine/motion/photometric_register.h"
+#include "engine/temporal/outline_evidence.h"
 #include "engine/temporal/surface_walker.h"
 #include "tests/motion/pictures.h"
 #include "tests/temporal/picture_flow.h"
@@ -150,6 +153,31 @@ TEST(StepMotion, WhatIsFoundAgainEverywhereIsNotSearchedTwice) {
                         flow_between(luma, last), FlowQuality::kFinal, 8);
     EXPECT_FALSE(found.by_freed);
     EXPECT_FALSE(found.freed_lead);
+}
+
+TEST(StepMotion, LeavesTheOutlineOpenUntilSomebodyAsks) {
+    constexpr float kFaint = 0.03f, kGrain = 0.5f;
+    const Matte matte = window();
+    const Matte before = frame_of(0, kFaint, kGrain), now = frame_of(1, kFaint, kGrain);
+    const auto prev = std::make_shared<const StepFrame>(before, matte, matte);
+    const auto cur = std::make_shared<const StepFrame>(now, matte, matte);
+    const auto flow = std::make_shared<const FlowField>(flow_between(now, before));
+    const StepEvidence at_once = gather_evidence(*prev, *cur, *flow, FlowQuality::kFinal, 8);
+    const StepEvidence open = picture_evidence(prev, cur, flow, FlowQuality::kFinal, 8);
+    ASSERT_TRUE(at_once.by_outline);
+    EXPECT_FALSE(open.by_outline);
+    ASSERT_TRUE(open.open);
+    const StepEvidence& whole = open.open->whole();
+    ASSERT_TRUE(whole.by_outline);
+    EXPECT_EQ(whole.lead, at_once.lead);
+    EXPECT_EQ(whole.freed_lead, at_once.freed_lead);
+    const auto same = [](const LatticeField& a, const LatticeField& b) {
+        return std::equal(a.nodes().data(),
+                          a.nodes().data() + a.nodes().size_bytes() / sizeof(float),
+                          b.nodes().data());
+    };
+    EXPECT_TRUE(same(*whole.by_outline, *at_once.by_outline));
+    EXPECT_TRUE(same(open.by_picture, at_once.by_picture));
 }
 
 TEST(MotionChoice, TakesThePictureWhereItClearlyLeads) {
