@@ -152,8 +152,8 @@ class Sampler {
     [[nodiscard]] float finer_levels(float shortest, float cell) const {
         float out = 0, span = 1;
         for (std::size_t k = 0; k < plane_level_; ++k, span *= 0.5f) {
-            const float share = std::clamp(
-                std::min(2 - 2 * shortest / span, 2 - 2 * cell / span), 0.0f, 1.0f);
+            const float share =
+                std::clamp(std::min(2 - 2 * shortest / span, 2 - 2 * cell / span), 0.0f, 1.0f);
             out += share;
             if (share < 1) break;
         }
