@@ -72,6 +72,7 @@ Expected<SampleArgs> send_texture(GpuState& state, FramePlace& place, const Devi
     SampleArgs args{};
     std::copy(plane.levels.begin(), plane.levels.end(), args.levels);
     args.level_count = static_cast<int>(plane.levels.size());
+    args.plane_level = request.plane->plane_level();
     args.wrap = wrap_of(request.plane->wrap());
     args.fewest = request.quality == SampleQuality::kFinal ? 3 : 2;
     args.most = request.quality == SampleQuality::kFinal ? 8 : 4;

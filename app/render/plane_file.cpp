@@ -37,7 +37,8 @@ Status check_plane_file(const std::string& path, const ShotPlan& plan) {
 Status write_plane_file(const std::string& path, const PlanePyramid& plane,
                         const ShotSpaces& spaces, WriteOptions write) {
     const Size size = plane.size();
-    const PlanePyramid::Level& texels = plane.levels().front();
+    const PlanePyramid::Level& texels =
+        plane.levels()[static_cast<std::size_t>(plane.plane_level())];
     ImageF3 picture(size);
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {

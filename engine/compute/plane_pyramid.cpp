@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "engine/compute/finer_level.h"
 #include "engine/core/parallel.h"
 #include "engine/core/wrap.h"
 
@@ -73,7 +74,8 @@ int wrapped_index(int i, int n, WrapMode wrap) {
     return i < n ? i : 2 * n - 1 - i;
 }
 
-PlanePyramid::PlanePyramid(ViewF3 linear, WrapMode wrap) : size_(linear.size()), wrap_(wrap) {
+PlanePyramid::PlanePyramid(ViewF3 linear, WrapMode wrap, int finer)
+    : size_(linear.size()), wrap_(wrap) {
     if (linear.empty()) return;
     static std::atomic<std::uint64_t> identities{0};
     identity_ = ++identities;
@@ -86,6 +88,8 @@ PlanePyramid::PlanePyramid(ViewF3 linear, WrapMode wrap) : size_(linear.size()),
     }
     std::vector<Level> levels;
     levels.push_back(std::move(plane));
+    for (plane_level_ = 0; plane_level_ < finer; ++plane_level_)
+        levels.insert(levels.begin(), finer_level(levels.front(), wrap));
     while (levels.back().width() > 1 || levels.back().height() > 1)
         levels.push_back(halve(levels.back()));
     levels_ = std::make_shared<const std::vector<Level>>(std::move(levels));

@@ -86,7 +86,10 @@ template <WrapMode W>
 class Sampler {
   public:
     Sampler(const SampleRequest& request, ImageView<float, 3> out)
-        : request_(request), out_(out), density_(density(request.quality)) {
+        : request_(request),
+          out_(out),
+          density_(density(request.quality)),
+          plane_level_(static_cast<std::size_t>(request.plane->plane_level())) {
         for (const auto& level : request.plane->levels()) {
             levels_.push_back({&level,
                                static_cast<float>(level.width()) /
@@ -128,14 +131,37 @@ class Sampler {
         const bool known = std::abs(centre[0]) < 1e9f && std::abs(centre[1]) < 1e9f;
         if (!(known && lx < 1e6f && ly < 1e6f)) return F4{};
         const int nx = density_.cells(lx), ny = density_.cells(ly);
-        // A level's texel spans 2^level texels of the plane; a cell should not span more than about
+        // A level's texel spans 2^k texels of the plane; a cell should not span more than about
         // one.
         const float cell = std::max(lx / static_cast<float>(nx), ly / static_cast<float>(ny));
-        std::size_t level = 0;
+        std::size_t level = plane_level_;
         for (float span = 1.0f; cell > span && level + 1 < levels_.size(); span *= 2)
             ++level;
-        const LevelView& view = levels_[level];
+        const float finer = finer_levels(std::min(lx, ly), cell);
+        level -= static_cast<std::size_t>(finer);
+        const F4 here = at_level(levels_[level], centre, jx, jy, nx, ny);
+        const float share = finer - std::floor(finer);
+        if (!(share > 0)) return here;
+        const F4 next = at_level(levels_[level - 1], centre, jx, jy, nx, ny);
+        return here + share * (next - here);
+    }
 
+    // How many levels above the plane show a magnified pixel: each comes in while the texels of the
+    // one below grow from one pixel to two, along the axis along which they are the largest, and
+    // only if the cells along the other one are fine enough for it.
+    [[nodiscard]] float finer_levels(float shortest, float cell) const {
+        float out = 0, span = 1;
+        for (std::size_t k = 0; k < plane_level_; ++k, span *= 0.5f) {
+            const float share =
+                std::clamp(std::min(2 - 2 * shortest / span, 2 - 2 * cell / span), 0.0f, 1.0f);
+            out += share;
+            if (share < 1) break;
+        }
+        return out;
+    }
+
+    [[nodiscard]] F4 at_level(const LevelView& view, const float* centre, Vec2 jx, Vec2 jy, int nx,
+                              int ny) const {
         const Vec2 scale(view.scale_x, view.scale_y);
         const Size size = request_.plane->size();
         const Vec2 at =
@@ -175,6 +201,7 @@ class Sampler {
     SampleRequest request_;
     ImageView<float, 3> out_;
     Density density_;
+    std::size_t plane_level_;
     std::vector<LevelView> levels_;
 };
 

@@ -119,18 +119,19 @@ Expected<RegionPlane> make_plane(const ShotPlan& plan, const RegionPlan& region,
                                  const Backend* backend) {
     const TexturePicture& texture = *region.texture;
     if (texture.is_plane) {
-        return RegionPlane{
-            PlanePyramid(transformed(texture.pixels, *region.working_from_texture), texture.wrap),
-            std::nullopt,
-            {},
-            nullptr};
+        return RegionPlane{PlanePyramid(transformed(texture.pixels, *region.working_from_texture),
+                                        texture.wrap, finer_levels(texture.pixels.size())),
+                           std::nullopt,
+                           {},
+                           nullptr};
     }
     PlaneOptions options =
         plane_options(region, plan.seed, plane_size(region.placement, plate), backend);
     options.tileable = options.whole_periods = true;
     options.amendments = region.amendments;
     WEFT_TRY(plane, kept_texture(plan, region, options, cancel, progress));
-    RegionPlane out{PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat),
+    RegionPlane out{PlanePyramid(plane_in_working_space(region, plane), WrapMode::kRepeat,
+                                 finer_levels(plane.pixels.size())),
                     plane.stats, plan.layers ? seam_texels(plane) : Matte(), nullptr};
     if (plan.keep_planes) out.grown = std::make_shared<const TexturePlane>(std::move(plane));
     return out;
@@ -148,6 +149,12 @@ Expected<TextureMapping> mapping_on(const RegionPlan& region, const RegionScene&
 
 Size plane_size(const PlanePlacement& placement, Size plate) {
     return {plane_side(plate.width, placement.scale), plane_side(plate.height, placement.scale)};
+}
+
+int finer_levels(Size plane) {
+    constexpr std::int64_t kMostTexels = 8'000'000;
+    const std::int64_t texels = std::int64_t{plane.width} * plane.height;
+    return 16 * texels <= kMostTexels ? 2 : 4 * texels <= kMostTexels ? 1 : 0;
 }
 
 ImageF3 plane_in_working_space(const RegionPlan& region, const TexturePlane& plane) {

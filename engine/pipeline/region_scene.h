@@ -68,6 +68,11 @@ struct RegionScene {
 /// depends on the plate and the placement only, so that every part of a shot gets the same plane.
 [[nodiscard]] Size plane_size(const PlanePlacement& placement, Size plate);
 
+/// How many finer levels the pyramid of a plane of that size gets: two for one that covers a plate
+/// of 1920×1080 about four times enlarged, one down to 1.3 times, as long as the finest has at most
+/// 8 million texels (128 MB).
+[[nodiscard]] int finer_levels(Size plane);
+
 /// A region's texture, ready to be looked up.
 struct RegionPlane {
     PlanePyramid pyramid;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "engine/synthesis/lattice_checks.h"
 #include "engine/synthesis/sample_lattice.h"
 #include "engine/synthesis/self_correlation.h"
 
@@ -15,13 +16,17 @@ namespace weft {
 namespace {
 
 constexpr double kLeastStep_px = 6;
-constexpr int kPeakBorder = 2;
+constexpr int kPeakBorder = 2, kFlank_px = 5;
 constexpr int kLargestSearched = 512;
 constexpr std::size_t kMostPeaks = 24;
 constexpr double kLeastHeight = 0.08;
 constexpr double kLeastMatch = 0.3;  // Of a lattice with two steps.
 // Of what resembles itself so much at two places or more, less contrast is no chance: woven bricks
 // are like themselves half a step on, too.
+constexpr double kMostResidual_px = 1;
+// Enough for a lattice without a mirror.
+constexpr int kPlentyRepeats = 6;
+constexpr double kPlentyMatch = 0.6;
 constexpr double kSureMatch = 0.5, kSureContrast = 0.2;
 
 // A lattice of which few repeats lie within reach may be chance.
@@ -41,6 +46,10 @@ std::vector<Vec2i> peaks_of(const SelfCorrelation& c) {
             const Vec2i d{dx, dy};
             if ((dy == 0 && dx <= 0) || glm::length(glm::dvec2(d)) < kLeastStep_px) continue;
             if (c.at(d) < kLeastHeight || *best_near(c, d, kPeakBorder) != d) continue;
+            // A ripple on the flank of something beyond reach.
+            const bool far =
+                std::max(std::abs(d.x), dy) + kFlank_px > std::max(c.reach.x, c.reach.y);
+            if (far && *best_near(c, d, kFlank_px) != d) continue;
             // The slope around the origin is not repetition.
             double valley = 1;
             constexpr int kSteps = 12;
@@ -164,6 +173,28 @@ struct Found {
     Contrast contrast;
 };
 
+// The lattice that the correlation has near `steps`, of whole units; none where it is not sure.
+Found lattice_near(const SelfCorrelation& c, const std::array<glm::dvec2, 2>& steps) {
+    const Fit fine = fitted(c, steps);
+    const auto reach_over = [&](const std::array<glm::dvec2, 2>& both) {
+        return std::ranges::all_of(both, [&](glm::dvec2 v) { return c.covers(nearest(v)); });
+    };
+    if (fine.residual_px > kMostResidual_px || !reach_over(reduced(fine.steps))) return {};
+    Found out;
+    out.contrast = contrast(c, fine.steps, 8, 0);
+    const bool plenty =
+        out.contrast.repeats >= kPlentyRepeats && out.contrast.match >= kPlentyMatch;
+    if (!is_symmetric(reduced(fine.steps)) && !plenty) return {};
+    const Fit fit = fitted(c, whole_units(c, fine.steps));
+    out.lattice = {2,
+                   reduced(fit.steps),
+                   std::clamp(out.contrast.value, 0.0, 1.0),
+                   out.contrast.match,
+                   out.contrast.repeats,
+                   fit.residual_px};
+    return out;
+}
+
 Found two_steps(const SelfCorrelation& c) {
     const std::vector<Vec2i> peaks = peaks_of(c);
     struct Candidate {
@@ -178,7 +209,7 @@ Found two_steps(const SelfCorrelation& c) {
             const double area = std::abs(a.x * b.y - a.y * b.x);
             if (area < 0.3 * glm::length(a) * glm::length(b)) continue;
             const Contrast here = contrast(c, {a, b}, 2, 1);
-            if (here.holds(2)) found.push_back({{a, b}, here, area});
+            if (here.holds(2) && is_even(c, {a, b})) found.push_back({{a, b}, here, area});
         }
     }
     if (found.empty()) return {};
@@ -201,16 +232,7 @@ Found two_steps(const SelfCorrelation& c) {
             best = &k;
         }
     }
-    Found out;
-    const Fit fit = fitted(c, best->steps);
-    out.contrast = contrast(c, fit.steps, 8, 0);
-    out.lattice = {2,
-                   reduced(fit.steps),
-                   std::clamp(out.contrast.value, 0.0, 1.0),
-                   out.contrast.match,
-                   out.contrast.repeats,
-                   fit.residual_px};
-    return out;
+    return lattice_near(c, best->steps);
 }
 
 struct WaveFit {
@@ -290,6 +312,14 @@ Found one_step(const SelfCorrelation& c, bool along_x) {
         step = v, out.contrast = contrast;
     }
     if (step == 0) return out;
+    if (!is_free_along(c, step, along_x)) {
+        const auto joints = joints_in_courses(c, step, along_x);
+        if (!joints) return {};
+        const Found found = lattice_near(c, *joints);
+        const bool sure = found.lattice.count == 2 && found.lattice.match >= kLeastMatch &&
+                          is_even(c, found.lattice.steps);
+        return sure ? found : Found{};
+    }
     const WaveFit fit = fitted_wave(at, along, across, step);
     if (fit.residual_px < 0) return out;
     const glm::dvec2 turned = along_x ? fit.wave : glm::dvec2{fit.wave.y, fit.wave.x};

@@ -168,11 +168,10 @@ std::string reason_of(const SampleDescription& sample) {
     switch (sample.kind) {
         case SampleKind::kPeriodic:
             if (l.count == 1)
-                return fmt::format("it repeats every {:.1f} px across, confidence {} %",
-                                   std::hypot(l.steps[0].x, l.steps[0].y), percent(l.confidence));
-            return fmt::format("it repeats every {} and every {}, confidence {} %",
-                               step_in_words(l.steps[0]), step_in_words(l.steps[1]),
-                               percent(l.confidence));
+                return fmt::format("its stripes, {:.1f} px apart, are kept in step",
+                                   std::hypot(l.steps[0].x, l.steps[0].y));
+            return fmt::format("its units are kept whole, every {} and every {}",
+                               step_in_words(l.steps[0]), step_in_words(l.steps[1]));
         case SampleKind::kPicture:
             if (sample.border < kPlainBorder)
                 return fmt::format("a plain border, with {} % of the variance inside it",
@@ -183,7 +182,7 @@ std::string reason_of(const SampleDescription& sample) {
             return fmt::format("its corners differ from its middle by {:.1f} standard deviations",
                                sample.fall);
         default:
-            return "no period, and alike everywhere";
+            return "no unit repeats, so patches are laid freely";
     }
 }
 

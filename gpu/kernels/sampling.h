@@ -25,6 +25,7 @@ enum Wrap : int { kWrapRepeat, kWrapMirror, kWrapClamp };
 struct SampleArgs {
     Level levels[kMostLevels];
     int level_count;
+    int plane_level;  ///< The levels before it are finer than the plane.
     int wrap;
     int fewest, most;  ///< Cells along one axis of a pixel.
     const float* coords;
@@ -53,12 +54,40 @@ class PixelSampler {
         if (!(known && lx < 1e6f && ly < 1e6f)) return;
         const int nx = cells(lx), ny = cells(ly);
         const float cell = larger(lx / static_cast<float>(nx), ly / static_cast<float>(ny));
-        int level = 0;
+        int level = a_.plane_level;
         for (float span = 1.0f; cell > span && level + 1 < a_.level_count; span *= 2)
             ++level;
-        const Level& l = a_.levels[level];
-        const Float2 at{folded(centre[0], a_.levels[0].width) * l.scale_x,
-                        folded(centre[1], a_.levels[0].height) * l.scale_y};
+        const float finer = finer_levels(smaller(lx, ly), cell);
+        level -= static_cast<int>(finer);
+        at_level(a_.levels[level], centre, jx, jy, nx, ny, rgb);
+        const float share = finer - floorf(finer);
+        if (share > 0) {
+            float next[3];
+            at_level(a_.levels[level - 1], centre, jx, jy, nx, ny, next);
+            for (int c = 0; c < 3; ++c)
+                rgb[c] = rgb[c] + share * (next[c] - rgb[c]);
+        }
+        for (int c = 0; c < 3; ++c)
+            rgb[c] = larger(0.0f, rgb[c]);
+    }
+
+  private:
+    WEFT_HD float finer_levels(float shortest, float cell) const {
+        float out = 0, span = 1;
+        for (int k = 0; k < a_.plane_level; ++k, span *= 0.5f) {
+            const float share =
+                held(smaller(2 - 2 * shortest / span, 2 - 2 * cell / span), 0.0f, 1.0f);
+            out += share;
+            if (share < 1) break;
+        }
+        return out;
+    }
+
+    WEFT_HD void at_level(const Level& l, const float* centre, Float2 jx, Float2 jy, int nx, int ny,
+                          float* rgb) const {
+        const Level& plane = a_.levels[a_.plane_level];
+        const Float2 at{folded(centre[0], plane.width) * l.scale_x,
+                        folded(centre[1], plane.height) * l.scale_y};
         const Float2 step_x{jx.x * l.scale_x / static_cast<float>(nx),
                             jx.y * l.scale_y / static_cast<float>(nx)};
         const Float2 step_y{jy.x * l.scale_x / static_cast<float>(ny),
@@ -70,10 +99,9 @@ class PixelSampler {
         sum(l, at, first, step_x, step_y, nx, ny, rgb);
         const float share = 1.0f / static_cast<float>(nx * ny);
         for (int c = 0; c < 3; ++c)
-            rgb[c] = larger(0.0f, rgb[c] * share);
+            rgb[c] *= share;
     }
 
-  private:
     WEFT_HD const float* coord(int x, int y) const {
         return a_.coords +
                2 * (static_cast<u64>(y) * static_cast<u64>(a_.width) + static_cast<u64>(x));

@@ -247,6 +247,37 @@ TEST(PlaneSampler, MagnifiesSmoothly) {
     EXPECT_NEAR(0.5f * (out.at(63, 8) + out.at(64, 8)), 0.5f, 0.01f);
 }
 
+TEST(PlaneSampler, FinerLevelsChangeNothingWhereThePlaneIsNotMagnified) {
+    const ImageF3 picture = soft_noise(kPlane);
+    const PlanePyramid plain(picture.view(), WrapMode::kRepeat),
+        fine(picture.view(), WrapMode::kRepeat, 2);
+    ASSERT_EQ(fine.plane_level(), 2);
+    ASSERT_EQ(fine.size(), kPlane);
+    for (const SampleQuality quality : {SampleQuality::kDraft, SampleQuality::kFinal}) {
+        for (const Vec2 scale : {Vec2(1, 1), Vec2(1.3f, 4), Vec2(9, 0.2f), Vec2(40, 40)}) {
+            const ImageF2 uv = coords_of(kOut, [&](Vec2 p) { return scale * p; });
+            EXPECT_EQ(sampled(fine, uv, quality), sampled(plain, uv, quality)) << scale.x;
+        }
+    }
+}
+
+TEST(PlaneSampler, FinerLevelsComeInWithoutAStep) {
+    // From two texels a pixel to an eighth of one: no neighbouring columns differ in how sharp they
+    // are by more than the pattern does.
+    const PlanePyramid fine(soft_noise(kPlane).view(), WrapMode::kRepeat, 2);
+    const auto shown = [&](float texels) {
+        return sampled(fine, coords_of(kOut, [&](Vec2 p) { return texels * p + Vec2(3, 5); }));
+    };
+    for (float texels = 1.2f; texels > 0.15f; texels -= 0.05f) {
+        const float step = 1e-4f;
+        EXPECT_LT(difference(shown(texels), shown(texels - step)).worst, 0.02) << texels;
+    }
+    // Well magnified it is the finest level that is seen.
+    const ImageF2 uv = coords_of(kOut, [](Vec2 p) { return 0.2f * p; });
+    const PlanePyramid plain(soft_noise(kPlane).view(), WrapMode::kRepeat);
+    EXPECT_GT(difference(sampled(fine, uv), sampled(plain, uv)).mean, 0.005);
+}
+
 TEST(PlaneSampler, BlursOnlyAlongTheFootprint) {
     // Squeezed 6 : 1 along x only: stripes along x survive, stripes along y average out.
     ImageF3 rows(96, 96), columns(96, 96);

@@ -55,9 +55,9 @@ ImageF1 light(Size size, std::uint64_t seed, float highest) {
     return out;
 }
 
-FrameLayer layer(Size box, WrapMode wrap, const std::function<Vec2(Vec2)>& map) {
+FrameLayer layer(Size box, WrapMode wrap, const std::function<Vec2(Vec2)>& map, int finer = 0) {
     FrameLayer l;
-    l.plane = PlanePyramid(linear_noise({75, 61}, 5, 1.0f), wrap);
+    l.plane = PlanePyramid(linear_noise({75, 61}, 5, 1.0f), wrap, finer);
     l.coords = mapped(box, map);
     l.matte = disc(box, 0.45f * static_cast<float>(std::min(box.width, box.height)));
     return l;
@@ -74,6 +74,14 @@ Vec2 far_away(Vec2 p) {
 }
 Vec2 magnified(Vec2 p) {
     return {0.21f * p.x + 20, 0.17f * p.y + 20};
+}
+
+// From 1.2 texels a pixel to 0.1.
+Vec2 nearing(Vec2 p) {
+    return {1.2f * p.x - 0.009f * p.x * p.x, 0.9f * p.y - 0.004f * p.y * p.y};
+}
+Vec2 stretched(Vec2 p) {
+    return {0.3f * p.x + 0.1f * p.y, 0.5f * p.y + 0.12f * p.y * p.y};
 }
 
 void poison(ImageF3& frame) {
@@ -124,6 +132,14 @@ std::vector<FrameCase> frame_cases() {
     c.layers[1].shading = light({42, 34}, 6, 1.2f);
     c.layers[1].quality = SampleQuality::kDraft;
     c.layers[2].origin = {20, 15};
+    out.push_back(c);
+
+    // Finer levels come in one after the other, and stay away where the other axis is too coarse.
+    c = {"Magnified", linear_noise(size, 14, 0.9f), {}, {}};
+    c.layers = {layer({60, 60}, WrapMode::kMirror, nearing, 2),
+                layer({52, 40}, WrapMode::kClamp, stretched, 1),
+                layer({40, 52}, WrapMode::kRepeat, magnified, 2)};
+    c.layers[1].quality = SampleQuality::kDraft;
     out.push_back(c);
 
     c = {"WholeFrame", linear_noise(size, 8, 0.9f), {layer(size, WrapMode::kMirror, turned)}, 0.9f};

@@ -53,6 +53,26 @@ TEST(RegionScene, APlaneOfSeveralTurnedSamplesShowsTheirPixels) {
     EXPECT_GT(orientations.size(), 3u);
 }
 
+TEST(RegionScene, EnlargedPlanesHaveFinerLevelsAsMemoryAllows) {
+    for (int side = 64; side <= 4096; side += 64) {
+        const int levels = finer_levels({side, side});
+        EXPECT_LE(std::int64_t{side} * side << (2 * levels),
+                  8'000'000 + (levels == 0 ? 1 << 24 : 0));
+        if (side > 64) {
+            EXPECT_LE(levels, finer_levels({side - 64, side - 64}));
+        }
+    }
+    // A plate of 1920×1080, enlarged four times and twice, and as it is.
+    const auto at = [](float scale) {
+        PlanePlacement placement;
+        placement.scale = scale;
+        return finer_levels(plane_size(placement, {1920, 1080}));
+    };
+    EXPECT_EQ(at(4), 2);
+    EXPECT_EQ(at(2), 1);
+    EXPECT_EQ(at(1), 0);
+}
+
 TEST(RegionScene, SettingsReachTheSynthesis) {
     RegionPlan region = make_region(sample_texture());
     region.refine_passes = 7;

@@ -85,6 +85,25 @@ TEST(Recommend, OffersWhatServesAsTheRegion) {
     EXPECT_LE(share_of("wall", worn), 1);
 }
 
+TEST(Recommend, OffersClothForClothesAmongTheFirstThree) {
+    const Frame frame;
+    RecommendRequest request = request_for(frame);
+    const auto has_cloth = [&](const std::string& name, float diversity) {
+        request.regions[0].name = name;
+        request.diversity = diversity;
+        const auto advice = small_library()->recommend(request);
+        const std::vector<Suggestion>& s = advice->regions[0].suggestions;
+        return std::any_of(s.begin(), s.begin() + 3, [](const Suggestion& one) {
+            return one.material == "fabric" || one.material == "knit";
+        });
+    };
+    for (const char* name : {"shirt", "bedspread", "left sleeve", "jeans", "curtains", "duvet"}) {
+        for (const float diversity : {0.0f, 0.35f, 1.0f})
+            EXPECT_TRUE(has_cloth(name, diversity)) << name << " " << diversity;
+    }
+    EXPECT_FALSE(has_cloth("wall", 0.35f));
+}
+
 // Sums over the scheme "In harmony".
 struct Variety {
     std::set<std::string> materials;

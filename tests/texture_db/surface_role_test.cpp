@@ -66,6 +66,8 @@ TEST(SurfaceRole, ReadsNamesAndThePathsOfMattes) {
     const auto named = [](const char* name) { return likeliest(roles_of_name(name)); };
     EXPECT_EQ(named("left sleeve"), SurfaceRole::kGarment);
     EXPECT_EQ(named("Curtains"), SurfaceRole::kGarment);
+    EXPECT_EQ(named("bedroom_bedspread_1.png"), SurfaceRole::kGarment);
+    EXPECT_EQ(named("white T-shirt"), SurfaceRole::kGarment);
     EXPECT_EQ(named("dragon_tail"), SurfaceRole::kCoat);
     EXPECT_EQ(named("shots/010/mattes/floor/0001.png"), SurfaceRole::kGround);
     EXPECT_EQ(named("walls/fox.png"), SurfaceRole::kCoat) << "the file's name before its folder's";

@@ -25,8 +25,9 @@ constexpr RoleVocabulary kVocabulary[]{
      "garment clothing cloth fabric dress skirt shirt sleeve cape coat jacket trouser pant hat "
      "scarf glove robe tunic cloak costume sweater jumper blouse suit vest hood sock shoe boot "
      "apron uniform curtain drape flag sail cushion pillow blanket towel rug carpet sofa footwear "
-     "headdress "
-     "textile"},
+     "headdress textile tee tshirt jean legging stocking gown veil shawl turban kimono sari tie "
+     "ribbon cuff collar bedspread bedcover bedding bedclothes bed duvet quilt comforter mattress "
+     "pillowcase couch armchair upholstery tablecloth napkin banner tent backpack"},
     {SurfaceRole::kCoat,
      "fur coat skin body animal creature monster dog cat fox bear horse bird swan dragon lizard "
      "snake fish tail paw wing feather mane head leg character hair beast"},

@@ -205,6 +205,33 @@ std::vector<Scored> diverse(const std::vector<Scored>& pool, const RegionScorer&
     return out;
 }
 
+// Whoever dresses somebody looks for cloth first: with none among the first three, the best one
+// moves up to the third place.
+void bring_cloth_forward(const RegionScorer& scorer, const std::vector<SuggestionScheme>& schemes,
+                         std::vector<Suggestion>& suggestions) {
+    constexpr std::ptrdiff_t kFirst = 3;
+    constexpr float kPerhaps = 0.25f;  // a bedspread that lies along the bottom
+    const auto garment = static_cast<std::size_t>(SurfaceRole::kGarment);
+    if (scorer.roles()[garment] < kPerhaps || std::ssize(suggestions) < kFirst) return;
+    const auto is_cloth = [](const Suggestion& s) {
+        return s.material == "fabric" || s.material == "knit";
+    };
+    const auto third = suggestions.begin() + kFirst - 1;
+    if (std::any_of(suggestions.begin(), third + 1, is_cloth)) return;
+    if (const auto later = std::find_if(third + 1, suggestions.end(), is_cloth);
+        later != suggestions.end()) {
+        std::rotate(third, later, later + 1);
+        return;
+    }
+    for (const SuggestionScheme& scheme : schemes) {
+        const auto found = std::ranges::find_if(scheme.suggestions, is_cloth);
+        if (found == scheme.suggestions.end()) continue;
+        suggestions.insert(third, *found);
+        suggestions.pop_back();
+        return;
+    }
+}
+
 // The best of all schemes in turn, each texture once, each for the role that gets the next place.
 std::vector<Suggestion> best_of_all(const SampleIndex& index, const RegionScorer& scorer,
                                     const std::vector<SuggestionScheme>& schemes, int count) {
@@ -229,6 +256,7 @@ std::vector<Suggestion> best_of_all(const SampleIndex& index, const RegionScorer
         if (taken) places.give(role);
         idle = taken ? 0 : idle + 1;
     }
+    bring_cloth_forward(scorer, schemes, out);
     return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "texture_db/starter/families.h"
+#include "texture_db/starter/units.h"
 
 namespace weft::starter {
 namespace {
@@ -101,6 +102,7 @@ void brick(Dice& dice, Relief& relief, Label& label) {
         t.height = 2.0f * face + 0.35f * (own - 0.5f) + 0.35f * rough + 0.22f * grit;
     });
     label.name = kNames[kind];
+    label.unit = brick_unit(kind, w, h);
     label.tags = {"brickwork", "wall", "masonry"};
     if (kind == 6) label.tags.push_back("paint");
     if (kind == 7) label.tags.insert(label.tags.end(), {"old", "weathered"});
@@ -202,6 +204,7 @@ void tiles(Dice& dice, Relief& relief, Label& label) {
         t.shine = shine * face;
     });
     label.name = kNames[kind];
+    label.unit = tile_unit(kind, size, motif == 0);
     label.tags = {"tile", "floor", "wall", "grout"};
     if (kind == 3) label.tags.push_back("mosaic");
     if (kind == 1) label.tags.push_back("checked");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "texture_db/starter/families.h"
+#include "texture_db/starter/units.h"
 
 namespace weft::starter {
 
@@ -171,6 +172,7 @@ void wallpaper(Dice& dice, Relief& relief, Label& label) {
         t.shine = gold * ink;
     });
     label.name = kNames[kind];
+    label.unit = wallpaper_unit(kind, w, h);
     label.tags = {"wall", "interior", "pattern", "patterned"};
     if (kind == 1) label.tags.push_back("striped");
     if (kind == 2) label.tags.push_back("flowers");

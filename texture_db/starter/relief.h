@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/image.h"
+#include "texture_db/starter/starter.h"
 #include "texture_db/starter/toolkit.h"
 
 namespace weft::starter {
@@ -87,6 +88,7 @@ struct Label {
     std::string name;
     std::vector<std::string> tags;
     Light light;
+    StarterUnit unit;
 };
 
 }  // namespace weft::starter

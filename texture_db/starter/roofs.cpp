@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "texture_db/starter/families.h"
+#include "texture_db/starter/units.h"
 
 namespace weft::starter {
 
@@ -93,6 +94,7 @@ void roof(Dice& dice, Relief& relief, Label& label) {
         t.shine = kind == 1 ? 0.25f : 0.06f;
     });
     label.name = kNames[kind];
+    label.unit = roof_unit(kind, w, h);
     label.tags = {"roofing", "shingles", "building"};
     if (kind == 1) label.tags.push_back("slate");
     if (moss > 0) label.tags.push_back("mossy");

@@ -87,6 +87,7 @@ StarterPicture make_starter(const StarterItem& item, int side_px) {
     out.pixels = relief.photograph(label.light, dice.seed());
     out.name = label.name + " " + std::to_string(item.number + 1);
     out.tags = std::move(label.tags);
+    out.unit = label.unit;
     out.tags.emplace_back("procedural");
     return out;
 }
