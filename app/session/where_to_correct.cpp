@@ -36,7 +36,13 @@ std::vector<CorrectionHint> where_to_correct(const std::vector<int>& frames,
                                              const std::vector<int>& painted,
                                              const std::vector<int>& anchored) {
     using Kind = CorrectionHint::Kind;
-    std::map<int, CorrectionHint> worst;
+    // By frame: its worst problem, and which of that kind's suggestions it is.
+    struct Found {
+        CorrectionHint hint;
+        int turn = 0;
+        float badness = 0;
+    };
+    std::map<int, Found> worst;
     for (const Kind kind : {Kind::kMatte, Kind::kDrift, Kind::kStretch}) {
         std::vector<FrameConfidence> list;
         for (std::size_t k = 0; k < std::min(frames.size(), marks.size()); ++k)
@@ -44,19 +50,25 @@ std::vector<CorrectionHint> where_to_correct(const std::vector<int>& frames,
                 list.push_back({frames[k], 1.0f - badness(kind, marks[k])});
         const std::vector<int>& done = kind == Kind::kMatte ? painted : anchored;
         if (list.empty() || done.empty()) continue;
+        int turn = 0;
         for (const int frame : suggest_keyframes(list, done)) {
             const auto at = static_cast<std::size_t>(
                 std::lower_bound(frames.begin(), frames.end(), frame) - frames.begin());
-            const auto found = worst.find(frame);
-            if (found != worst.end() &&
-                badness(found->second.kind, marks[at]) >= badness(kind, marks[at]))
-                continue;
-            worst[frame] = {frame, kind, value_of(kind, marks[at])};
+            const Found now{
+                {frame, kind, value_of(kind, marks[at])}, turn++, badness(kind, marks[at])};
+            const auto [kept, is_new] = worst.try_emplace(frame, now);
+            if (!is_new && now.badness > kept->second.badness) kept->second = now;
         }
     }
+    std::vector<Found> ranked;
+    for (const auto& [frame, found] : worst)
+        ranked.push_back(found);
+    std::stable_sort(ranked.begin(), ranked.end(), [](const Found& a, const Found& b) {
+        return a.turn != b.turn ? a.turn < b.turn : a.badness > b.badness;
+    });
     std::vector<CorrectionHint> out;
-    for (const auto& [frame, hint] : worst)
-        out.push_back(hint);
+    for (const Found& found : ranked)
+        out.push_back(found.hint);
     return out;
 }
 

@@ -19,7 +19,8 @@ struct CorrectionHint {
     bool operator==(const CorrectionHint&) const = default;
 };
 
-/// Up to three frames of each kind (suggest_keyframes() of engine/mask), ascending. A frame is
+/// Up to three frames of each kind (suggest_keyframes() of engine/mask), first the one where a look
+/// pays most: the best of each kind, the worst problem first, then the second ones. A frame is
 /// listed once, for its worst problem. `frames` ascend and correspond to `marks`. `painted`: frames
 /// with a painted matte; `anchored`: reference frames and corrections. Pure.
 [[nodiscard]] std::vector<CorrectionHint> where_to_correct(const std::vector<int>& frames,

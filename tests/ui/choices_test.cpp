@@ -151,6 +151,25 @@ TEST_F(Choices, HintsGoToTheirFrame) {
     EXPECT_EQ(emitted<GoToFrame>()[0].frame, 1009);
 }
 
+TEST_F(Choices, OneKeyGoesThroughTheSuggestedFrames) {
+    view.to_correct = {{1009, CorrectionHint::Kind::kMatte, 0.2f},
+                       {1003, CorrectionHint::Kind::kDrift, 0.7f}};
+    go("Mask", Tool::kPan);
+    const auto pressed_at = [&](int frame) {
+        view.frame = frame;
+        clear();
+        robot->key("Ctrl+Right");
+        robot->frames();
+        const auto sent = emitted<GoToFrame>();
+        return sent.size() == 1 ? sent[0].frame : 0;
+    };
+    EXPECT_EQ(pressed_at(1001), 1009) << "where a look pays most";
+    EXPECT_EQ(pressed_at(1009), 1003);
+    EXPECT_EQ(pressed_at(1003), 1009) << "around";
+    view.to_correct.clear();
+    EXPECT_EQ(pressed_at(1001), 0);
+}
+
 TEST_F(Choices, WorstFramesAreListedBySeamsAndDrift) {
     view.marks[1].drift = 0.2f;
     view.marks[7].drift = 0.8f;
