@@ -8,6 +8,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/light_doubt.h"
+#include "engine/lighting/masked_filters.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/pattern_period.h"
 
@@ -211,23 +212,24 @@ ClipReflectance ReflectanceGatherer::finish() {
                      [](float w) { return w > 0; })) {
         return {};
     }
-    ImageF1 light = log_shading(still, options_);
+    auto [light, pattern] = log_shading(still, options_);
     out.value = difference_of(still.luma, light, out.confidence);
     const int period = pattern_period_px(out.value, out.confidence, kLongestPeriod);
-    if (period > 0) {
+    if (period > 0 && pattern.presence > 0) {
         // Here larger features of the pattern can be separated from light than in a single frame:
         // up to the pattern's period.
         const ImageF1 wide = light_beyond_period(light, out.confidence, out.value,
                                                  static_cast<float>(period) * kPeriods);
-        const float share = remains_share(difference_of(light, wide, out.confidence), out.value);
+        const float share =
+            pattern.presence * remains_share(difference_of(light, wide, out.confidence), out.value);
         for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i)
             light.data()[i] += share * (wide.data()[i] - light.data()[i]);
         out.value = difference_of(still.luma, light, out.confidence);
     }
     // What moves has been told from paint by that; the light that never does has not.
-    out.doubt =
-        light_doubt(light, difference_of(out.value, still.paint, out.confidence), out.confidence,
-                    std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_)));
+    out.doubt = light_doubt(light, difference_of(out.value, still.paint, out.confidence),
+                            weighted(out.confidence, pattern.ground),
+                            std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_)));
     return out;
 }
 

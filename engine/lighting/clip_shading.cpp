@@ -174,8 +174,9 @@ Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflect
         note_doubt(out, known, doubt);
         return out;
     }
-    const ImageF1 alone = log_shading(sample, options);
-    const ImageF1 alone_doubt = light_doubt(sample, alone, options);
+    const LogShading log = log_shading(sample, options);
+    const ImageF1& alone = log.value;
+    const ImageF1 alone_doubt = light_doubt(sample, log, options);
     for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
         light.data()[i] = alone.data()[i] + share.data()[i] * (light.data()[i] - alone.data()[i]);
     for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i) {
