@@ -96,6 +96,7 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
     part.box = mapped_box(s, ref_from_cur);
     if (part.box.empty()) return;
     downscale_ = s.downscale;
+    part.marks = surface_pattern(undecided_luma(s), s.weight, pattern_px()).marks;
     part.luma = part.paint = part.weight = ImageF1(part.box.size());
     // A splat is a scatter: one thread, so that sums come in one order.
     for (int y = 0; y < s.box.height(); ++y) {
@@ -187,11 +188,26 @@ void ReflectanceGatherer::find_levels(const Recti& box) {
     }
 }
 
+// In a single frame they are sharp; here, motion that is off by a pixel blurs them.
+PrintedMarks ReflectanceGatherer::usual_marks() const {
+    const auto often = [&](bool PrintedMarks::*kind) {
+        return 2 * std::count_if(parts_.begin(), parts_.end(),
+                                 [&](const Part& part) { return part.marks.*kind; }) >=
+               static_cast<std::ptrdiff_t>(parts_.size());
+    };
+    return {often(&PrintedMarks::dark), often(&PrintedMarks::light)};
+}
+
+float ReflectanceGatherer::pattern_px() const {
+    return std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_));
+}
+
 ClipReflectance ReflectanceGatherer::finish() {
     ClipReflectance out;
     if (static_cast<int>(parts_.size()) < kFewestFrames) return out;
     for (const Part& part : parts_)
         out.box = out.box.united(part.box);
+    out.marks = usual_marks();
     find_levels(out.box);
     const auto darker = [](const Part& a, const Part& b) { return a.level < b.level; };
     const float full = std::max_element(parts_.begin(), parts_.end(), darker)->level;
@@ -228,8 +244,7 @@ ClipReflectance ReflectanceGatherer::finish() {
     }
     // What moves has been told from paint by that; the light that never does has not.
     out.doubt = light_doubt(light, difference_of(out.value, still.paint, out.confidence),
-                            weighted(out.confidence, pattern.ground),
-                            std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_)));
+                            weighted(out.confidence, pattern.ground), pattern_px());
     return out;
 }
 

@@ -161,13 +161,8 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
 }
 
 LogShading log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
-    const float pattern_px = small_pattern(sample, options);
-    ImageF1 rest = sample.luma;
-    for (const ImageF1* known : {&sample.paint, &sample.daylight}) {
-        for (std::size_t i = 0; i < known->size_bytes() / sizeof(float); ++i)
-            rest.data()[i] -= known->data()[i];
-    }
-    LogShading light = without_pattern(rest, sample.weight, pattern_px);
+    LogShading light =
+        without_pattern(undecided_luma(sample), sample.weight, small_pattern(sample, options));
     for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
         light.value.data()[i] += sample.daylight.data()[i];
     return light;

@@ -30,7 +30,7 @@ constexpr double kExplainsNothing = 0.2, kExplains = 0.5;
 constexpr double kTint = 0.1, kPaint = 0.25;
 // Of what colour explains: its deviation over its slopes' root mean square. In pixels: edges cannot
 // be told from slopes up to kUnresolved, and it counts as paint.
-constexpr float kUnresolved = 1.6f, kResolved = 2.1f;
+constexpr float kUnresolved = 1.9f, kResolved = 2.15f;
 // Of the window: up to kFineColour it is paint, from kWideColour on it may be sheen.
 constexpr float kInside = 0.5f;  // of the weight: the rim shows other things
 constexpr float kFineColour = 0.12f, kWideColour = 0.16f;

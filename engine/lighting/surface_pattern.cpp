@@ -140,10 +140,21 @@ SurfacePattern surface_pattern(const ImageF1& luma, const ImageF1& weight, float
                                static_cast<int>(2 * sigma_px) + 1))
             continue;
         take_out(found, weight, side, out.ground);
+        (side < 0 ? out.marks.dark : out.marks.light) = true;
     }
     const ImageF1 base = blurred(weighted(luma, out.ground), out.ground, sigma_px).value;
     out.presence = smooth_step(deviation_between(base, luma, out.ground), kPlain, kPatterned);
     return out;
+}
+
+ImageF1 ground_between(const PrintedMarks& marks, const ImageF1& luma, const ImageF1& weight,
+                       float pattern_px) {
+    ImageF1 ground = weight;
+    if (!marks.dark && !marks.light) return ground;
+    const Outliers found = outliers_of(luma, weight, kPatternSigma * pattern_px);
+    if (marks.dark) take_out(found, weight, -1, ground);
+    if (marks.light) take_out(found, weight, 1, ground);
+    return ground;
 }
 
 }  // namespace weft

@@ -9,6 +9,11 @@ namespace weft {
 /// stripes of that period fall to 1 %.
 constexpr float kPatternSigma = 0.5f;
 
+/// Which marks a surface has: some that are darker than its ground, some that are lighter.
+struct PrintedMarks {
+    bool dark = false, light = false;
+};
+
 struct SurfacePattern {
     /// H×W: the weight that was given, and 0 on marks: lines, dots and figures all over a surface
     /// of one other paint.
@@ -16,6 +21,7 @@ struct SurfacePattern {
     /// 0 where what varies between the marks is its own shading (folds, wrinkles, facets), 1 where
     /// it is pattern.
     float presence = 0;
+    PrintedMarks marks = {};
 };
 
 /// Marks are darker, or lighter, than their surroundings, nearly all by more than half of the most,
@@ -24,5 +30,9 @@ struct SurfacePattern {
 /// belong to the surface, in its pixels. Thread-safe, bit-identical for any number of threads.
 [[nodiscard]] SurfacePattern surface_pattern(const ImageF1& luma, const ImageF1& weight,
                                              float pattern_px);
+
+/// `weight`, and 0 on the marks of a surface of which it is known that it has such.
+[[nodiscard]] ImageF1 ground_between(const PrintedMarks& marks, const ImageF1& luma,
+                                     const ImageF1& weight, float pattern_px);
 
 }  // namespace weft

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "engine/lighting/clip_reflectance.h"
 #include "engine/lighting/shading.h"
 #include "engine/lighting/surface_pattern.h"
 #include "tests/lighting/lighting_scene.h"
@@ -81,6 +83,26 @@ TEST(Folds, AreLightBetweenPrintedLinesWhichAreNone) {
     EXPECT_GT(as_folds(s), 0.9);
     EXPECT_LT(std::abs(correlation_with(s, [](int, int y) { return on_line(y) ? 1.0 : 0.0; })),
               0.1);
+}
+
+// Motion that misses a few pixels, so that the clip knows the lines faintly.
+TEST(Folds, LinesAreNoLightOfAClipWhoseMotionIsOff) {
+    const ShadingOptions options;
+    const Matte matte = scene::box_matte(kCloth);
+    ReflectanceGatherer gatherer(options);
+    std::optional<SurfaceSample> last;
+    for (const int off : {-3, -2, -1, 0, 1, 2, 3, 0}) {
+        const ImageF3 plate = cloth([off](int x, int y) {
+            const float ink = on_line(y + off) ? 0.12f : 0.6f;
+            return scaled({ink, ink, ink}, fold_light(x, y));
+        });
+        last = light_sample(plate, matte, options);
+        gatherer.add(*last, ImageF2(last->box.size()));
+    }
+    const Shading s = shading_with(*last, gatherer.finish(), ImageF2(last->box.size()), options);
+    EXPECT_GT(as_folds(s), 0.9);
+    EXPECT_LT(std::abs(correlation_with(s, [](int, int y) { return on_line(y) ? 1.0 : 0.0; })),
+              0.15);
 }
 
 TEST(Folds, AreLightWhereTheirColourShifts) {
