@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/lighting/fast_math.h"
 
 namespace weft {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 constexpr float kSigmaInCells = 0.9129f;
 constexpr int kMaxBins = 96;
 constexpr float kMinWeight = 1e-4f;
+// A grid that is as fine as the picture costs more than sums over the few neighbours.
+constexpr float kDirectPx = 1.5f;
+constexpr float kDirectSigmas = 2.2f;
 
 struct Grid {
     int width = 0, height = 0, depth = 0;  // cells, borders included
@@ -168,15 +172,50 @@ void slice_row(const Grid& g, int y, const ImageF1& guide, float* out) {
     }
 }
 
+// The sums of one row over its neighbours, as the definition says.
+void direct_row(const ImageF1& values, const ImageF1& weight, const ImageF1& guide,
+                const BilateralScale& scale, int y, float* out) {
+    const float space_px = std::max(1.0f, scale.space_px);
+    const int width = guide.width(), radius = static_cast<int>(kDirectSigmas * space_px);
+    const float per_space = -0.5f / (space_px * space_px);
+    const float per_range = -0.5f / (scale.range * scale.range);
+    const float* own = guide.row(y);
+    std::vector<float> value(static_cast<std::size_t>(width)), total(value.size());
+    for (int v = std::max(0, y - radius); v <= std::min(guide.height() - 1, y + radius); ++v) {
+        for (int dx = -radius; dx <= radius; ++dx) {
+            const auto far = static_cast<float>(dx * dx + (v - y) * (v - y));
+            const float near = fast_exp(per_space * far);
+            const float *g = guide.row(v) + dx, *n = values.row(v) + dx, *w = weight.row(v) + dx;
+            for (int x = std::max(0, -dx); x < width - std::max(0, dx); ++x) {
+                const float d = g[x] - own[x];
+                const float share = near * fast_exp(per_range * d * d);
+                value[static_cast<std::size_t>(x)] += share * n[x];
+                total[static_cast<std::size_t>(x)] += share * w[x];
+            }
+        }
+    }
+    for (int x = 0; x < width; ++x) {
+        const auto i = static_cast<std::size_t>(x);
+        out[x] = total[i] > kMinWeight ? value[i] / total[i] : own[x];
+    }
+}
+
 }  // namespace
 
 ImageF1 joint_bilateral(const ImageF1& weighted_values, const ImageF1& weight, const ImageF1& guide,
                         const BilateralScale& scale) {
+    ImageF1 out(guide.size());
+    if (scale.space_px <= kDirectPx) {
+        parallel_rows(guide.height(), 16, [&](int y0, int y1) {
+            for (int y = y0; y < y1; ++y)
+                direct_row(weighted_values, weight, guide, scale, y, out.row(y));
+        });
+        return out;
+    }
     Grid g = make_grid(weight, guide, scale);
     if (g.cells.empty()) return guide;
     splat(g, weighted_values, weight, guide);
     blur(g);
-    ImageF1 out(guide.size());
     parallel_rows(guide.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y)
             slice_row(g, y, guide, out.row(y));

@@ -1,12 +1,13 @@
 #pragma once
-// Joint bilateral filtering through a coarse grid over (x, y, guide) (Paris & Durand 2006).
+// Joint bilateral filtering through a coarse grid over (x, y, guide) (Paris & Durand 2006); up to
+// one pixel and a half, by sums.
 
 #include "engine/core/image.h"
 
 namespace weft {
 
 struct BilateralScale {
-    float space_px = 4;  ///< Standard deviation in pixels.
+    float space_px = 4;  ///< Standard deviation in pixels; less than 1 is taken as 1.
     float range = 0.1f;  ///< Standard deviation in the guide's unit.
 };
 

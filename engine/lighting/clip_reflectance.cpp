@@ -8,6 +8,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/light_doubt.h"
+#include "engine/lighting/masked_filters.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/pattern_period.h"
 
@@ -95,6 +96,7 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
     part.box = mapped_box(s, ref_from_cur);
     if (part.box.empty()) return;
     downscale_ = s.downscale;
+    part.marks = surface_pattern(undecided_luma(s), s.weight, pattern_px()).marks;
     part.luma = part.paint = part.weight = ImageF1(part.box.size());
     // A splat is a scatter: one thread, so that sums come in one order.
     for (int y = 0; y < s.box.height(); ++y) {
@@ -186,11 +188,26 @@ void ReflectanceGatherer::find_levels(const Recti& box) {
     }
 }
 
+// In a single frame they are sharp; here, motion that is off by a pixel blurs them.
+PrintedMarks ReflectanceGatherer::usual_marks() const {
+    const auto often = [&](bool PrintedMarks::*kind) {
+        return 2 * std::count_if(parts_.begin(), parts_.end(),
+                                 [&](const Part& part) { return part.marks.*kind; }) >=
+               static_cast<std::ptrdiff_t>(parts_.size());
+    };
+    return {often(&PrintedMarks::dark), often(&PrintedMarks::light)};
+}
+
+float ReflectanceGatherer::pattern_px() const {
+    return std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_));
+}
+
 ClipReflectance ReflectanceGatherer::finish() {
     ClipReflectance out;
     if (static_cast<int>(parts_.size()) < kFewestFrames) return out;
     for (const Part& part : parts_)
         out.box = out.box.united(part.box);
+    out.marks = usual_marks();
     find_levels(out.box);
     const auto darker = [](const Part& a, const Part& b) { return a.level < b.level; };
     const float full = std::max_element(parts_.begin(), parts_.end(), darker)->level;
@@ -211,23 +228,23 @@ ClipReflectance ReflectanceGatherer::finish() {
                      [](float w) { return w > 0; })) {
         return {};
     }
-    ImageF1 light = log_shading(still, options_);
+    auto [light, pattern] = log_shading(still, options_);
     out.value = difference_of(still.luma, light, out.confidence);
     const int period = pattern_period_px(out.value, out.confidence, kLongestPeriod);
-    if (period > 0) {
+    if (period > 0 && pattern.presence > 0) {
         // Here larger features of the pattern can be separated from light than in a single frame:
         // up to the pattern's period.
         const ImageF1 wide = light_beyond_period(light, out.confidence, out.value,
                                                  static_cast<float>(period) * kPeriods);
-        const float share = remains_share(difference_of(light, wide, out.confidence), out.value);
+        const float share =
+            pattern.presence * remains_share(difference_of(light, wide, out.confidence), out.value);
         for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i)
             light.data()[i] += share * (wide.data()[i] - light.data()[i]);
         out.value = difference_of(still.luma, light, out.confidence);
     }
     // What moves has been told from paint by that; the light that never does has not.
-    out.doubt =
-        light_doubt(light, difference_of(out.value, still.paint, out.confidence), out.confidence,
-                    std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_)));
+    out.doubt = light_doubt(light, difference_of(out.value, still.paint, out.confidence),
+                            weighted(out.confidence, pattern.ground), pattern_px());
     return out;
 }
 

@@ -18,8 +18,9 @@ namespace weft {
 struct ClipReflectance {
     Recti box;
     ImageF1 value;
-    ImageF1 confidence;  ///< Confidence, 0 to 1: the share of the frames that show the place.
-    ImageF1 doubt;       ///< light_doubt() of what never moves there.
+    ImageF1 confidence;       ///< Confidence, 0 to 1: the share of the frames that show the place.
+    ImageF1 doubt;            ///< light_doubt() of what never moves there.
+    PrintedMarks marks = {};  ///< That at least half of the frames show.
 };
 
 /// Gathers a surface's frames. Not thread-safe.
@@ -40,11 +41,14 @@ class ReflectanceGatherer {
         ImageF1 luma, paint;  // of the frame, ln; without the shade that its colours tell
         ImageF1 weight;
         float level = 0;  // ln light that the whole frame has beyond others
+        PrintedMarks marks;
     };
     template <typename Value>
     [[nodiscard]] ImageF1 over_time(const Recti& box, std::array<std::ptrdiff_t, 2> share,
                                     ImageF1& known, const Value& value, int step = 1) const;
     void find_levels(const Recti& box);
+    [[nodiscard]] PrintedMarks usual_marks() const;
+    [[nodiscard]] float pattern_px() const;
 
     int downscale_ = 1;
     ShadingOptions options_;

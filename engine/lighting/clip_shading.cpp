@@ -9,6 +9,7 @@
 #include "engine/lighting/clip_reflectance.h"
 #include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
+#include "engine/lighting/masked_statistics.h"
 
 namespace weft {
 namespace {
@@ -119,14 +120,8 @@ ImageF1 detail_shown(const SurfaceSample& s, const Seen& seen) {
 // Removes noise, and what small errors of the motion leave of the pattern. The light's own edges
 // stay.
 ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
-    ImageF1 guide = weighted(luma, weight), total = weight;
-    gaussian_blur(guide, kFineSigma);
-    gaussian_blur(total, kFineSigma);
-    for (std::size_t i = 0; i < guide.size_bytes() / sizeof(float); ++i) {
-        guide.data()[i] =
-            total.data()[i] > 1e-3f ? guide.data()[i] / total.data()[i] : luma.data()[i];
-    }
     const ImageF1 values = weighted(luma, weight);
+    ImageF1 guide = blurred(values, weight, kFineSigma).value;
     for (int i = 0; i < kFineRollings; ++i)
         guide = joint_bilateral(values, weight, guide, {kFineSpace, kFineRange});
     return guide;
@@ -142,6 +137,18 @@ bool shows_all(const ImageF1& weight, const ImageF1& share) {
         doubtful += share.data()[i] < kShown ? 1 : 0;
     }
     return doubtful * kDoubtfulOneIn <= all;
+}
+
+// Where motion is off by a pixel, the clip knows thin marks only faintly. The frame shows where
+// they are; the light across them is the ground's.
+ImageF1 unmarked(const SurfaceSample& s, const ImageF1& known, const PrintedMarks& marks,
+                 const ShadingOptions& options) {
+    const float pattern_px = std::max(1.0f, options.pattern_px / static_cast<float>(s.downscale));
+    const ImageF1 ground = ground_between(marks, undecided_luma(s), s.weight, pattern_px);
+    ImageF1 out = known;
+    for (std::size_t i = 0; i < out.size_bytes() / sizeof(float); ++i)
+        if (!(ground.data()[i] > 0)) out.data()[i] = 0;
+    return out;
 }
 
 // The sample without doubtful places; light is interpolated over them.
@@ -166,7 +173,7 @@ Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflect
     ImageF1 lit = sample.luma;
     for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
         lit.data()[i] -= seen.value.data()[i];
-    ImageF1 light = without_noise(lit, seen.known);
+    ImageF1 light = without_noise(lit, unmarked(sample, seen.known, reflectance.marks, options));
     ImageF1 doubt = seen.doubt;
     if (shows_all(sample.weight, share)) {
         const SurfaceSample known = known_part(sample, share);
@@ -174,8 +181,9 @@ Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflect
         note_doubt(out, known, doubt);
         return out;
     }
-    const ImageF1 alone = log_shading(sample, options);
-    const ImageF1 alone_doubt = light_doubt(sample, alone, options);
+    const LogShading log = log_shading(sample, options);
+    const ImageF1& alone = log.value;
+    const ImageF1 alone_doubt = light_doubt(sample, log, options);
     for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
         light.data()[i] = alone.data()[i] + share.data()[i] * (light.data()[i] - alone.data()[i]);
     for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i) {

@@ -9,20 +9,20 @@
 #include "engine/lighting/fast_math.h"
 #include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
+#include "engine/lighting/masked_statistics.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/quadratic_fit.h"
 #include "engine/lighting/reflectance.h"
 #include "engine/lighting/shading.h"
+#include "engine/lighting/surface_pattern.h"
 #include "engine/lighting/surface_sample.h"
 
 namespace weft {
 namespace {
 
-constexpr float kKnownWeight = 1e-3f;  // of a window: below this there is no estimate
-constexpr int kChromaWindow = 2;       // times pattern_px
+constexpr int kChromaWindow = 2;  // times pattern_px
 
 // Scales, measured on clips whose true shading is known.
-constexpr float kPatternSigma = 0.5f;  // of pattern_px: stripes of that period fall to 1%
 // Times the blur's; it may be wide because rolling guidance keeps edges.
 constexpr float kRollingSigma = 2.5f;
 // Times the deviation of what the blur leaves of the pattern.
@@ -45,47 +45,8 @@ constexpr float kLeastRoot = 0.14f;  // of the median's root: 2 % of the median 
 
 constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // for light from a clip
 
-// A surface whose lightness has a standard deviation below kPlain (ln units) has no pattern: what
-// varies is its own shading, such as wrinkles and facets. Above kPatterned all variation is
-// pattern.
-constexpr float kPlain = 0.08f, kPatterned = 0.16f;
-constexpr float kPlainSigma = 0.25f;  // times the blur's of a patterned surface
-
-// The blurred luma, and where enough pixels support it.
-struct Guide {
-    ImageF1 value;
-    Matte known;
-};
-
-Guide blurred(const ImageF1& weighted_luma, const ImageF1& weight, float sigma) {
-    Guide g{weighted_luma, Matte(weight.size())};
-    ImageF1 total = weight;
-    gaussian_blur(g.value, sigma);
-    gaussian_blur(total, sigma);
-    parallel_rows(weight.height(), 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < weight.width(); ++x) {
-                const bool known = total.row(y)[x] > kKnownWeight;
-                g.known.row(y)[x] = known ? 255 : 0;
-                g.value.row(y)[x] = known ? g.value.row(y)[x] / total.row(y)[x] : 0.0f;
-            }
-        }
-    });
-    fill_unknown(g.value, g.known);
-    return g;
-}
-
-// Median absolute difference of two planes, scaled to a standard deviation. A median is not raised
-// by the edges of shadows, which cover few pixels.
-float deviation_between(const ImageF1& a, const ImageF1& b, const ImageF1& weight) {
-    std::vector<float> differences;
-    for (int y = 0; y < a.height(); y += 2) {
-        for (int x = 0; x < a.width(); x += 2) {
-            if (weight.row(y)[x] > 0) differences.push_back(std::abs(a.row(y)[x] - b.row(y)[x]));
-        }
-    }
-    return kDeviationOfMedian * median_of(differences, 0.0f);
-}
+// On a surface without pattern: of the blur of a patterned one, and of that in rolling guidance.
+constexpr float kPlainSigma = 0.25f, kPlainRollingSigma = 0.8f;
 
 // Median over the places where the plane is known.
 float median_inside(const ImageF1& plane, const ImageF1& weight) {
@@ -96,10 +57,6 @@ float median_inside(const ImageF1& plane, const ImageF1& weight) {
         }
     }
     return median_of(values, 0.0f);
-}
-
-float pattern_presence(float deviation) {
-    return smooth_step(deviation, kPlain, kPatterned);
 }
 
 // After a blur, the remains of a pattern are wide and faint and look like light. Deviations from
@@ -127,28 +84,30 @@ void remove_remains(ImageF1& light, const ImageF1& weight, float pattern, float 
     });
 }
 
+float mixed(float plain, float patterned, float presence) {
+    return plain + (patterned - plain) * presence;
+}
+
 // Rolling guidance (Zhang et al. 2014, eq. 5): the blur removes the pattern; filtering the
-// unblurred luma with that result as the guide restores the edges of wider structures.
-ImageF1 without_pattern(const ImageF1& luma, const ImageF1& weight, float pattern_px) {
-    float sigma = kPatternSigma * pattern_px;
-    const ImageF1 weighted_luma = weighted(luma, weight);
-    ImageF1 guide = blurred(weighted_luma, weight, sigma).value;
-    const float presence = pattern_presence(deviation_between(guide, luma, weight));
-    if (presence < 1) {
-        sigma *= kPlainSigma + (1.0f - kPlainSigma) * presence;
-        guide = blurred(weighted_luma, weight, sigma).value;
-    }
-    const ImageF1 wide = blurred(weighted(guide, weight), weight, 2.0f * sigma).value;
-    const float residue = deviation_between(guide, wide, weight);
-    const BilateralScale rolling{kRollingSigma * sigma,
+// unblurred luma with that result as the guide restores the edges of wider structures. Across the
+// marks on a plain ground the light is that of the ground.
+LogShading without_pattern(const ImageF1& luma, const ImageF1& weight, float pattern_px) {
+    SurfacePattern pattern = surface_pattern(luma, weight, pattern_px);
+    const ImageF1& ground = pattern.ground;
+    const float sigma = kPatternSigma * pattern_px * mixed(kPlainSigma, 1, pattern.presence);
+    const ImageF1 weighted_luma = weighted(luma, ground);
+    ImageF1 guide = blurred(weighted_luma, ground, sigma).value;
+    const ImageF1 wide = blurred(weighted(guide, ground), ground, 2.0f * sigma).value;
+    const float residue = deviation_between(guide, wide, ground);
+    const BilateralScale rolling{mixed(kPlainRollingSigma, kRollingSigma, pattern.presence) * sigma,
                                  std::clamp(kRangeOfResidue * residue, kMinRange, kMaxRange)};
     for (int i = 0; i < kRollings; ++i)
-        guide = joint_bilateral(weighted_luma, weight, guide, rolling);
+        guide = joint_bilateral(weighted_luma, ground, guide, rolling);
     ImageF1 light =
         joint_bilateral(weighted(guide, weight), weight, guide, {kStepSigma * sigma, kStepRange});
     remove_remains(light, weight, deviation_between(luma, light, weight),
-                   kMostLeftOfPattern * presence);
-    return light;
+                   kMostLeftOfPattern * pattern.presence);
+    return {std::move(light), std::move(pattern)};
 }
 
 // A polynomial fit of the light's square root, returned as ln light. Where a body turns away from
@@ -201,16 +160,11 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
     return sample;
 }
 
-ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
-    const float pattern_px = small_pattern(sample, options);
-    ImageF1 rest = sample.luma;
-    for (const ImageF1* known : {&sample.paint, &sample.daylight}) {
-        for (std::size_t i = 0; i < known->size_bytes() / sizeof(float); ++i)
-            rest.data()[i] -= known->data()[i];
-    }
-    ImageF1 light = without_pattern(rest, sample.weight, pattern_px);
+LogShading log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
+    LogShading light =
+        without_pattern(undecided_luma(sample), sample.weight, small_pattern(sample, options));
     for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
-        light.data()[i] += sample.daylight.data()[i];
+        light.value.data()[i] += sample.daylight.data()[i];
     return light;
 }
 
@@ -259,8 +213,8 @@ Shading shading_from_log(const ImageF1& log, const SurfaceSample& sample) {
 
 Shading shading_of(const SurfaceSample& sample, const ShadingOptions& options) {
     if (sample.box.empty()) return shading_from_log({}, sample);
-    const ImageF1 log = log_shading(sample, options);
-    Shading out = shading_from_log(log, sample);
+    const LogShading log = log_shading(sample, options);
+    Shading out = shading_from_log(log.value, sample);
     note_doubt(out, sample, light_doubt(sample, log, options));
     return out;
 }

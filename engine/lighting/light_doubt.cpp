@@ -61,16 +61,16 @@ ImageF1 light_doubt(const ImageF1& light, const ImageF1& paint, const ImageF1& w
     return out;
 }
 
-ImageF1 light_doubt(const SurfaceSample& sample, const ImageF1& log,
+ImageF1 light_doubt(const SurfaceSample& sample, const LogShading& log,
                     const ShadingOptions& options) {
-    ImageF1 light = log, paint = sample.luma;
-    for (std::size_t i = 0; i < log.size_bytes() / sizeof(float); ++i)
-        paint.data()[i] -= log.data()[i];
+    ImageF1 light = log.value, paint = sample.luma;
+    for (std::size_t i = 0; i < paint.size_bytes() / sizeof(float); ++i)
+        paint.data()[i] -= log.value.data()[i];
     for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
         light.data()[i] -= sample.daylight.data()[i];
     for (std::size_t i = 0; i < sample.paint.size_bytes() / sizeof(float); ++i)
         paint.data()[i] -= sample.paint.data()[i];
-    return light_doubt(light, paint, sample.weight,
+    return light_doubt(light, paint, log.pattern.ground,
                        std::max(1.0f, options.pattern_px / static_cast<float>(sample.downscale)));
 }
 

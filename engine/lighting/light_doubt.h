@@ -13,8 +13,8 @@ namespace weft {
 [[nodiscard]] ImageF1 light_doubt(const ImageF1& light, const ImageF1& paint, const ImageF1& weight,
                                   float pattern_px);
 
-/// The same of a single frame's shading `log` (log_shading()).
-[[nodiscard]] ImageF1 light_doubt(const SurfaceSample& sample, const ImageF1& log,
+/// The same of a single frame's shading; what is printed on its ground is decided, too.
+[[nodiscard]] ImageF1 light_doubt(const SurfaceSample& sample, const LogShading& log,
                                   const ShadingOptions& options);
 
 /// Sets Shading::sure. `doubt`: over the sample's box.

@@ -5,6 +5,7 @@
 
 #include "engine/core/image.h"
 #include "engine/lighting/daylight.h"
+#include "engine/lighting/surface_pattern.h"
 #include "engine/lighting/surface_sample.h"
 
 namespace weft {
@@ -63,8 +64,12 @@ struct Shading {
 [[nodiscard]] SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible,
                                          const ShadingOptions& options);
 [[nodiscard]] Shading shading_of(const SurfaceSample& sample, const ShadingOptions& options);
-/// `sample` must not be empty; ln(S + floor) over its box, unspecified where its weight is 0.
-[[nodiscard]] ImageF1 log_shading(const SurfaceSample& sample, const ShadingOptions& options);
+struct LogShading {
+    ImageF1 value;  ///< ln(S + floor) over the sample's box, unspecified where weight is 0.
+    SurfacePattern pattern;  ///< What it was told from.
+};
+/// `sample` must not be empty.
+[[nodiscard]] LogShading log_shading(const SurfaceSample& sample, const ShadingOptions& options);
 /// The light in `still` (ln light without fine pattern): structures that are wider than `period_px`
 /// of its pixels, or stronger than what may be left of `pattern` (ln reflectance). `weight`: the
 /// confidence in each pixel. All H×W.

@@ -28,7 +28,8 @@ constexpr double kOfSquares = 0.25;
 // The share of the colours' energy along daylight that the light explains, and how far its slope
 // is from the shot's, in proportion.
 constexpr double kChance = 0.4, kShared = 0.65, kSameSlope = 0.25, kOtherSlope = 0.5;
-constexpr double kOfBefore = 0.9;  // what earlier frames still say, for each frame
+constexpr int kDraft = 4, kLeastWindow = 3;  // a draft's downscale; small pixels
+constexpr double kOfBefore = 0.9;            // what earlier frames still say, for each frame
 // What averages the noise of colours: small pixels, and ln luma.
 constexpr float kSpace = 3.0f, kRange = 0.1f, kGuideSigma = 0.8f;
 
@@ -215,11 +216,15 @@ DaylightEvidence evidence_of(const ImageF1& light, const ImageF1& sunlit, const 
     return {m[0][0], m[0][1], m[1][1]};
 }
 
-// How far the light explains the colours along daylight, less paint's part, as the shot's light
-// does: 0 to 1.
+// How far the light explains the colours along daylight, less paint's part.
+double share_of(const DaylightEvidence& e) {
+    return e.light > 0 && e.colour > 0 ? e.both * e.both / (e.light * e.colour) : 0.0;
+}
+
+// The same as the shot's light does: 0 to 1.
 float trust_in(const DaylightEvidence& e, float slope) {
-    if (!(e.light > 0 && e.colour > 0)) return 0;
-    const double share = e.both * e.both / (e.light * e.colour);
+    const double share = share_of(e);
+    if (!(share > 0)) return 0;
     const double off = std::abs(e.both / e.light / slope - 1);
     return static_cast<float>(smooth_step(share, kChance, kShared) *
                               (1.0 - smooth_step(off, kSameSlope, kOtherSlope)));
@@ -264,6 +269,41 @@ Found find_light(const SurfaceSample& s, const ImageF1& along, const ImageF1& ac
     return {std::move(light), evidence};
 }
 
+// The means of 2 × 2 pixels: of noise, which hides from fine colours how the light goes with them,
+// a quarter is left.
+SurfaceSample halved(const SurfaceSample& s) {
+    SurfaceSample out;
+    out.box = {0, 0, (s.box.width() + 1) / 2, (s.box.height() + 1) / 2};
+    out.weight = out.luma = out.red_green = out.blue_green = ImageF1(out.box.size());
+    parallel_rows(out.box.height(), 8, [&](int y0, int y1) {
+        for (int y = 2 * y0; y < std::min(2 * y1, s.box.height()); ++y) {
+            for (int x = 0; x < s.box.width(); ++x) {
+                const float w = 0.25f * s.weight.row(y)[x];
+                out.weight.row(y / 2)[x / 2] += w;
+                out.luma.row(y / 2)[x / 2] += w * s.luma.row(y)[x];
+                out.red_green.row(y / 2)[x / 2] += w * s.red_green.row(y)[x];
+                out.blue_green.row(y / 2)[x / 2] += w * s.blue_green.row(y)[x];
+            }
+        }
+    });
+    for (ImageF1* plane : {&out.luma, &out.red_green, &out.blue_green}) {
+        for (std::size_t i = 0; i < count_of(*plane); ++i)
+            plane->data()[i] /= std::max(out.weight.data()[i], kLeastWeight);
+    }
+    return out;
+}
+
+// At a draft's size.
+DaylightEvidence coarse_evidence(const SurfaceSample& fine, int window_px, float slope) {
+    const SurfaceSample s = halved(fine);
+    const int radius = std::max(kLeastWindow, window_px / 2);
+    ImageF1 mean = s.weight;
+    box_blur(mean, radius);
+    return find_light(s, turned(s, kDaylightRed, kDaylightBlue),
+                      turned(s, -kDaylightBlue, kDaylightRed), Window(s, mean, radius), slope)
+        .evidence;
+}
+
 }  // namespace
 
 SkyShade::SkyShade(const SurfaceSample& s, const ImageF1& weight_mean, const ImageF1& luma_detail,
@@ -276,6 +316,10 @@ SkyShade::SkyShade(const SurfaceSample& s, const ImageF1& weight_mean, const Ima
                      window.wide(window.fine(across)));
     if (shot_daylight.confidence == 0) return;
     Found found = find_light(s, along, across, window, shot_daylight.slope);
+    if (s.downscale < kDraft) {
+        const DaylightEvidence coarse = coarse_evidence(s, window_px, shot_daylight.slope);
+        if (share_of(coarse) > share_of(found.evidence)) found.evidence = coarse;
+    }
     evidence_ = pooled(found.evidence, shot_daylight.before);
     confidence_ = shot_daylight.confidence * trust_in(evidence_, shot_daylight.slope);
     if (confidence_ == 0) return;

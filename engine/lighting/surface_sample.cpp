@@ -150,4 +150,13 @@ SurfaceSample sample_surface(ViewF3 linear, ViewU8x1 visible, int downscale) {
     return s;
 }
 
+ImageF1 undecided_luma(const SurfaceSample& sample) {
+    ImageF1 out = sample.luma;
+    for (const ImageF1* decided : {&sample.paint, &sample.daylight}) {
+        for (std::size_t i = 0; i < decided->size_bytes() / sizeof(float); ++i)
+            out.data()[i] -= decided->data()[i];
+    }
+    return out;
+}
+
 }  // namespace weft

@@ -223,7 +223,7 @@ TEST(ClipReflectance, WhereTheSurfaceIsAnotherTheFrameStandsForItself) {
             lost.at(x, y, 0) = 6.0f, lost.at(x, y, 1) = 2.0f;  // half a brick beside
     }
     const Shading with = shading_with(other, c.reflectance, lost, {});
-    const Shading alone = shading_from_log(log_shading(other, {}), other);
+    const Shading alone = shading_from_log(log_shading(other, {}).value, other);
     EXPECT_NEAR(with.value.at(140, 60) / alone.value.at(140, 60), 1.0f, 0.1f);
 }
 
