@@ -61,6 +61,9 @@ TEST_F(FormCommand, AShapeBesideItsRegionIsRefusedBeforeTheAnalysis) {
     expect_failure(outcome, 2, {"does not lie on the region", "--form-shape"});
     EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("analys")));
     EXPECT_FALSE(fs::exists(in("out/0001.png")));
+    // Hashes of the files that were read, and no analysis.
+    for (const auto& kept : fs::directory_iterator(in("private")))
+        EXPECT_EQ(kept.path().filename(), "fingerprints");
 }
 
 TEST_F(FormCommand, TakesAProject) {
