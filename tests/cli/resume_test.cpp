@@ -180,7 +180,7 @@ TEST_F(Resume, AnInputThatIsReplacedDuringTheRunIsAnError) {
 TEST_F(Resume, MemoryLimitsHowManyFramesAreWorkedOnAndSaysWhenNoneFits) {
     make_shot(4);
     expect_success(run_replace({"-o", "free/####.png", "--threads", "4"}));
-    expect_success(run_replace({"-o", "bound/####.png", "--threads", "4", "--memory", "400M"}));
+    expect_success(run_replace({"-o", "bound/####.png", "--threads", "4", "--memory", "500M"}));
     EXPECT_EQ(contents("bound"), contents("free"));
     expect_failure(run_replace({"-o", "none/####.png", "--memory", "100M"}), 6,
                    {"--memory", "160x120"});
