@@ -125,7 +125,9 @@ std::optional<std::array<glm::dvec2, 2>> joints_in_courses(const SelfCorrelation
         return c.at(*best_near(c, d, 1));
     };
     std::vector<Joints> found;
-    for (double width = kNoUnit_px; width <= 2 * reach.x; width += 0.5) {
+    const int widths = static_cast<int>(2 * (2 * reach.x - kNoUnit_px));
+    for (int k = 0; k <= widths; ++k) {
+        const double width = kNoUnit_px + 0.5 * k;
         for (const Bond bond : {Bond{width, 0, 1}, Bond{width, width / 2, 1}, Bond{width, 0, 2}}) {
             if (bond.shift == 0 && width > 0.9 * reach.x) continue;
             const Joints here = joints_of(at, bond, step_px, reach);

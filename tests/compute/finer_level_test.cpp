@@ -36,8 +36,9 @@ Plane lines(double width, double degrees, int side, int zoom) {
         for (int x = 0; x < out.width(); ++x) {
             int lit = 0;
             for (int k = 0; k < kCells * kCells; ++k) {
-                const double d = nx * ((x + (k % kCells + 0.5) / kCells) / zoom - side / 2.0) +
-                                 ny * ((y + (k / kCells + 0.5) / kCells) / zoom - side / 2.0);
+                const int column = k % kCells, row = k / kCells;
+                const double d = nx * ((x + (column + 0.5) / kCells) / zoom - side / 2.0) +
+                                 ny * ((y + (row + 0.5) / kCells) / zoom - side / 2.0);
                 lit += std::abs(d - 24 * std::round(d / 24)) < width / 2;
             }
             for (int c = 0; c < 3; ++c)
@@ -70,9 +71,11 @@ double cubic_at(const Plane& plane, double u, double v) {
 // Deviation of the tone along the middle of a line, over the contrast.
 double beads(const Plane& plane, double degrees, int side) {
     const double angle = degrees * M_PI / 180, zoom = static_cast<double>(plane.width()) / side;
+    constexpr double kStep = 0.13;
+    const int n = static_cast<int>(std::ceil(0.6 * side / kStep));
     double sum = 0, squares = 0;
-    int n = 0;
-    for (double along = -0.3 * side; along < 0.3 * side; along += 0.13, ++n) {
+    for (int k = 0; k < n; ++k) {
+        const double along = -0.3 * side + k * kStep;
         const double v = cubic_at(plane, (side / 2.0 - std::sin(angle) * along) * zoom,
                                   (side / 2.0 + std::cos(angle) * along) * zoom);
         sum += v, squares += v * v;
