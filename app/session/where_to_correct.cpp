@@ -61,12 +61,14 @@ std::vector<CorrectionHint> where_to_correct(const std::vector<int>& frames,
         }
     }
     std::vector<Found> ranked;
+    ranked.reserve(worst.size());
     for (const auto& [frame, found] : worst)
         ranked.push_back(found);
     std::stable_sort(ranked.begin(), ranked.end(), [](const Found& a, const Found& b) {
         return a.turn != b.turn ? a.turn < b.turn : a.badness > b.badness;
     });
     std::vector<CorrectionHint> out;
+    out.reserve(ranked.size());
     for (const Found& found : ranked)
         out.push_back(found.hint);
     return out;
