@@ -15,9 +15,9 @@ namespace {
 
 // Fitted to peaks of 3840x2160 renders at final quality with a region over 41 % of the frame: 1.25
 // GB with one frame at a time, 1.54 with two, 2.53 with four (measured with one heap per thread;
-// see main.cpp). A constant part (program, libraries, texture planes, and a plane's finer levels,
-// which came later), a part per pixel of the shot
-// (analysis of the frames in hand), and a part per pixel of each frame rendered in parallel
+// see main.cpp). A constant part (program, libraries, texture planes, and 160 MB that a plane's
+// finer levels take at most: by their size, they are not in those peaks), a part per pixel of the
+// shot (analysis of the frames in hand), and a part per pixel of each frame rendered in parallel
 // (working plate, canvas, texture, old surface, output, mattes).
 constexpr std::int64_t kProgramBytes = 380ll << 20;
 constexpr std::int64_t kShotBytesPerPixel = 70;

@@ -54,10 +54,12 @@ std::optional<Registered> RigidPlane::taken_for_granted(const Anchor& anchor, co
 
 void RigidPlane::note(bool speaks_against, const RegistrationFit& fit) {
     constexpr double kRefuted = 2, kForgotten = 0.5;
-    asked_ = fit;
     granted_ = 0;
-    // A frame that shows nothing says nothing for it either.
-    if (!speaks_against && shows_surface(fit)) ++borne_out_;
+    // A frame that shows nothing says nothing for it either, nor how well others have to do.
+    if (shows_surface(fit)) {
+        asked_ = fit;
+        if (!speaks_against) ++borne_out_;
+    }
     against_ = speaks_against ? against_ + 1 : std::max(0.0, against_ - kForgotten);
     if (against_ >= kRefuted && !said_) believed_ = false;
 }

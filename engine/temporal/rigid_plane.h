@@ -48,10 +48,10 @@ class RigidPlane {
     void note(bool speaks_against, const RegistrationFit& fit);
 
     bool believed_ = true, said_ = false;
-    int borne_out_ = 0;   // frames that showed the plane
-    double against_ = 0;  // frames that spoke against it, less half of those since that did not
-    int granted_ = 0;     // frames since it was asked last
-    RegistrationFit asked_;
+    int borne_out_ = 0;      // frames that showed the plane
+    double against_ = 0;     // frames that spoke against it, less half of those since that did not
+    int granted_ = 0;        // frames since it was asked last
+    RegistrationFit asked_;  // then; of the last frame that showed the surface
 };
 
 }  // namespace weft
