@@ -283,7 +283,7 @@ OrderedJson form_schema() {
             {"properties",
              {{"region", text},
               {"reference_frame", any_of_type("integer")},
-              {"source", {{"enum", {"pass", "motion", "shape", "outline", "flat"}}}},
+              {"source", {{"enum", {"pass", "motion", "lines", "shape", "outline", "flat"}}}},
               {"text", text},
               {"amount", number},
               {"amount_keyed", any_of_type("boolean")},

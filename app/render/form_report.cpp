@@ -59,12 +59,18 @@ Reason reason_of(const FormReport& form) {
             return {"temporal_mode", "because a form needs the locked temporal mode"};
     }
     if (form.finding.frames < kLeastFrames)
-        return {"few_frames", "because too few frames show it for motion to tell its form"};
+        return {"few_frames",
+                "because too few frames show it for motion to tell its form, and its lines show no "
+                "plane"};
     if (form.finding.no_parallax)
-        return {"no_parallax", "because the camera only turns or zooms; draw its form by hand"};
+        return {
+            "no_parallax",
+            "because the camera only turns or zooms, and its lines show no plane; draw its form "
+            "by hand"};
     if (!(form.finding.fov_deg > 0))
-        return {"not_rigid", "because its motion is not that of a rigid thing"};
-    return {"unsure", "because motion does not tell its form well enough"};
+        return {"not_rigid",
+                "because its motion is not that of a rigid thing, and its lines show no plane"};
+    return {"unsure", "because neither motion nor lines tell its form well enough"};
 }
 
 std::string frames_of(int frames) {
@@ -79,7 +85,8 @@ std::string error_text(float degrees) {
 }
 
 bool has_tilt(const FormFinding& finding) {
-    return finding.source == Source::kMotion || (finding.source == Source::kShape && finding.plane);
+    return finding.source == Source::kMotion || finding.source == Source::kLines ||
+           (finding.source == Source::kShape && finding.plane);
 }
 
 // ", field of view 47° ± 2° by 3 regions"
@@ -105,6 +112,8 @@ std::string what_was_found(const FormReport& form) {
                                                     : form.drawn + ", as drawn";
         case Source::kOutline:
             return "round, inflated from its outline";
+        case Source::kLines:
+            return fmt::format("plane, from straight lines on frame {}", form.frame);
     }
     return {};
 }
@@ -119,6 +128,8 @@ const char* source_name(Source source) {
             return "shape";
         case Source::kOutline:
             return "outline";
+        case Source::kLines:
+            return "lines";
         case Source::kNone:
             break;
     }

@@ -12,6 +12,10 @@ namespace weft {
     return static_cast<double>(std::log(static_cast<long double>(v)));
 }
 
+[[nodiscard]] inline double exponential(double v) {
+    return static_cast<double>(std::exp(static_cast<long double>(v)));
+}
+
 /// Of a cosine that may be off by rounding.
 [[nodiscard]] inline double degrees_of_cosine(double c) {
     return static_cast<double>(std::acos(static_cast<long double>(std::clamp(c, -1.0, 1.0))) * 180 /

@@ -12,14 +12,15 @@ struct FormFinding {
         kPass,    ///< A renderer's pass.
         kMotion,  ///< The motion of a rigid thing.
         kShape,   ///< A shape or strokes that were drawn.
-        kOutline  ///< Inflated from the outline.
+        kOutline,  ///< Inflated from the outline.
+        kLines     ///< The straight lines of the reference frame, in perspective.
     };
     Source source = Source::kNone;
     bool plane = false;                      ///< A plane, not a curved surface.
-    int frames = 0;                          ///< That show it.
+    int frames = 0;                          ///< Whose motion or pass shows it.
     float belief = 1;                        ///< How much of it is likely to be there, 0–1.
     float tilt_deg = 0, tilt_error_deg = 0;  ///< Of a plane or of motion, in the middle.
-    float fov_deg = 0;                       ///< Horizontal; of motion or a shape.
+    float fov_deg = 0;                       ///< Horizontal; of motion, lines or a shape.
     float fov_error_deg = 0;                 ///< 0: not known, or not asked.
     std::uint8_t fov_regions = 0;  ///< Of the shot, whose motion decided it together; 0: its own.
     bool no_parallax = false;      ///< The camera only turns or zooms, so motion tells no form.

@@ -2,14 +2,10 @@
 #include <optional>
 #include <vector>
 
+#include "engine/form/picture_lines.h"
 #include "engine/form/rigid_surface.h"
 
 namespace weft {
-
-/// A straight line on the picture, px.
-struct PictureLine {
-    glm::dvec2 from{0}, to{0};
-};
 
 struct PlaneFromLines {
     RigidSurface surface;                     ///< A plane: without relief.

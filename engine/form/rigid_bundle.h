@@ -9,7 +9,6 @@
 namespace weft {
 
 constexpr double kOutlierSquare = 25;            ///< Of an error, in σ: there it counts by half.
-constexpr double kGivenTangentDeviation = 1e-3;  ///< Of a tangent that is given.
 
 /// From the reference frame's view space into a frame's.
 struct RigidPose {

@@ -16,6 +16,7 @@
 #include "engine/form/plane_starts.h"
 #include "engine/form/rigid_bundle.h"
 #include "engine/form/still_camera.h"
+#include "engine/form/surface_distance.h"
 
 namespace weft {
 namespace {
@@ -24,40 +25,15 @@ constexpr std::size_t kLeastFrames = 2, kLeastPairs = 12;
 constexpr double kNotRigid = 0.3;  // of the motion beyond a similarity that may be left
 constexpr int kFirstSteps = 4, kMoreSteps = 30;
 constexpr std::size_t kKept = 6;
-constexpr double kSure = 0.12;     // deviation from which on one tangent is enough to start from
-constexpr double kBulge = 0.15;    // of nearness, from which a curved surface is looked for
-constexpr double kApart = 0.02;    // ln stretch between solutions that are two
-constexpr double kImpossible = 1;  // ln stretch from a shape that cannot be there
+constexpr double kSure = 0.12;   // deviation from which on one tangent is enough to start from
+constexpr double kBulge = 0.15;  // of nearness, from which a curved surface is looked for
+constexpr double kApart = 0.02;  // ln stretch between solutions that are two
 
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
 Vector3 ray_towards(const RigidSurface& s, Vec2 place) {
     return {s.tangent * (static_cast<double>(place.x) - s.middle.x) / s.long_side,
             s.tangent * (static_cast<double>(place.y) - s.middle.y) / s.long_side, 1};
-}
-
-// ½ ln of the ratio of the eigenvalues of a⁻¹ b: ln stretch between two laid surfaces.
-double log_stretch_between(const Metric& a, const Metric& b) {
-    const double area = a.determinant();
-    if (!(area > 0) || !(b.determinant() > 0)) return kImpossible;
-    const double half = (a.yy * b.xx - 2 * a.xy * b.xy + a.xx * b.yy) / (2 * area);
-    const double root = std::sqrt(std::max(0.0, half * half - b.determinant() / area));
-    return 0.5 * ln((half + root) / std::max(half - root, 1e-12 * half));
-}
-
-// Root mean square over places.
-template <typename Each>
-double rms_over(const std::vector<Vec2>& places, const Each& each) {
-    double sum = 0;
-    for (const Vec2 place : places) {
-        const double v = each(place);
-        sum += v * v;
-    }
-    return std::sqrt(sum / static_cast<double>(places.size()));
-}
-
-double between(const RigidSurface& a, const RigidSurface& b, const std::vector<Vec2>& places) {
-    return rms_over(places, [&](Vec2 p) { return log_stretch_between(a.metric(p), b.metric(p)); });
 }
 
 // The pose that a homography (in rays of a tangent of 1) shows of a plane (Malis & Vargas 2007): on
@@ -203,7 +179,7 @@ std::vector<RigidBundle> planes(const Problem& problem, double sigma) {
     for (RigidBundle& bundle : all) {
         if (out.size() == kKept) break;
         const auto alike = [&](const RigidBundle& other) {
-            return between(other.surface(), bundle.surface(), problem.places) < kApart;
+            return log_stretch_between(other.surface(), bundle.surface(), problem.places) < kApart;
         };
         if (std::any_of(out.begin(), out.end(), alike)) continue;
         bundle.descend(kMoreSteps);
@@ -280,11 +256,6 @@ double turn_of(const RigidSurface& surface, const std::vector<RigidPose>& poses)
     return degrees_of_cosine(cosine);
 }
 
-// Between the surface at its centre and the picture plane there.
-double tilt_of(const RigidSurface& surface) {
-    return degrees_of_cosine(facing(surface.metric(surface.centre)));
-}
-
 // The error of a solution from its covariance, and from those that explain as much.
 void find_errors(const Problem& problem, const std::vector<RigidBundle>& solutions, RigidFit& fit) {
     const RigidBundle& best = solutions.front();
@@ -294,7 +265,8 @@ void find_errors(const Problem& problem, const std::vector<RigidBundle>& solutio
         const double deviation = 1 / std::sqrt(std::max(solver.eigenvalues()[k], 1e-6));
         for (const double sign : {-1.0, 1.0}) {
             const RigidSurface other = best.moved(sign * deviation * solver.eigenvectors().col(k));
-            const double apart = std::min(kImpossible, between(fit.surface, other, problem.places));
+            const double apart = std::min(kImpossibleStretch,
+                                          log_stretch_between(fit.surface, other, problem.places));
             squares += 0.5 * apart * apart;
             const double turned = tilt_of(other) - fit.tilt_deg;
             tilt += 0.5 * turned * turned;
@@ -311,7 +283,8 @@ void find_errors(const Problem& problem, const std::vector<RigidBundle>& solutio
         const auto likely = static_cast<double>(
             std::exp(-0.5L * static_cast<long double>(solutions[k].cost() - best.cost())));
         const double apart =
-            std::min(kImpossible, between(fit.surface, solutions[k].surface(), problem.places));
+            std::min(kImpossibleStretch,
+                     log_stretch_between(fit.surface, solutions[k].surface(), problem.places));
         all += likely;
         others += likely * apart * apart;
         const double lens = solutions[k].surface().tangent - fit.surface.tangent;
@@ -367,20 +340,13 @@ std::optional<RigidFit> fit_rigid_surface(const std::vector<FrameMatches>& frame
     out.frames = static_cast<int>(frames.size());
     out.turn_deg = turn_of(out.surface, best.poses());
     out.tilt_deg = tilt_of(out.surface);
-    out.log_stretch = rms_over(problem->places, [&](Vec2 p) {
-        return log_stretch_between({1, 0, 1}, out.surface.metric(p));
-    });
+    out.log_stretch = log_stretch_of(out.surface, problem->places);
     out.believed = tangent;
     find_errors(*problem, solutions, out);
-    const auto fov_of = [&](double t) {
-        return static_cast<double>(2 *
-                                   std::atan(0.5L * static_cast<long double>(t) * picture.width /
-                                             static_cast<long double>(out.surface.long_side)) *
-                                   180 / std::numbers::pi_v<long double>);
-    };
-    out.fov_deg = fov_of(out.surface.tangent);
-    out.fov_error_deg = 0.5 * (fov_of(out.surface.tangent + out.tangent_error) -
-                               fov_of(std::max(0.0, out.surface.tangent - out.tangent_error)));
+    out.fov_deg = fov_of_tangent(out.surface.tangent, picture);
+    out.fov_error_deg =
+        0.5 * (fov_of_tangent(out.surface.tangent + out.tangent_error, picture) -
+               fov_of_tangent(std::max(0.0, out.surface.tangent - out.tangent_error), picture));
     return out;
 }
 

@@ -19,6 +19,8 @@ struct TangentBelief {
     double value = 0.91, deviation = 0.35;  ///< A field of view of 49° (32° to 64°).
 };
 
+constexpr double kGivenTangentDeviation = 1e-3;  ///< Of a tangent that is given.
+
 /// A rigid surface that explains how its places move, and how far that is to be believed.
 struct RigidFit {
     RigidSurface surface;

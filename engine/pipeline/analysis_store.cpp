@@ -263,7 +263,7 @@ Expected<FormMap> decode_form(const Bytes& bytes) {
         out.relief = std::move(relief);
     }
     if (!reader.complete() || !std::isfinite(out.origin.x + out.origin.y) ||
-        f.source > FormFinding::Source::kOutline || !(f.belief >= 0 && f.belief <= 1))
+        f.source > FormFinding::Source::kLines || !(f.belief >= 0 && f.belief <= 1))
         return damaged("form");
     return out;
 }

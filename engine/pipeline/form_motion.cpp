@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
-#include "engine/form/flatten.h"
-#include "engine/form/form_relief.h"
-#include "engine/form/pulled_back.h"
 #include "engine/form/rigid_fit.h"
 #include "engine/form/still_camera.h"
 #include "engine/form/view_camera.h"
 #include "engine/pipeline/form_evidence.h"
+#include "engine/pipeline/form_laid.h"
 #include "engine/pipeline/plate_views.h"
 
 namespace weft {
@@ -29,14 +26,6 @@ constexpr double kMostTurn_deg = 80;
 constexpr double kLeastFov_deg = 18, kMostFov_deg = 85;
 constexpr double kMostResidual = 0.6 / 854;  // by the long side
 constexpr double kLeastStretch = 0.02;       // ln; less is not seen
-constexpr double kLeastNearness = 0.04;      // of a plane towards its horizon
-// A plane goes on for that share of the least nearness seen: what is further is the horizon, whose
-// areas would outweigh all that is seen.
-constexpr double kFurther = 0.6;
-
-FormMap flat_over(Size plate, const FormFinding& finding) {
-    return {{}, LatticeField(plate, std::max(plate.width, plate.height)), finding};
-}
 
 FormFinding finding_of(const RigidFit& fit, FormFinding::Source source, const MotionLens& lens) {
     FormFinding out{source,
@@ -88,32 +77,6 @@ std::vector<FrameMatches> matches_of(const std::vector<FormEvidence>& evidence, 
     return out;
 }
 
-// Adds the surface at the places that a frame shows of it. Returns the least nearness of them.
-double add_places(MetricField& field, const RigidSurface& surface, const FormEvidence& at,
-                  double weight) {
-    const int step = std::max(1, field.spacing() / 4);
-    double least = std::numeric_limits<double>::infinity();
-    for (int y = step / 2; y < at.visible.height(); y += step) {
-        for (int x = step / 2; x < at.visible.width(); x += step) {
-            if (at.visible.row(y)[x] != 255) continue;
-            const Vec2 frame = centre_of_pixel(x, y);
-            const Vec2 place = frame + at.ref_from_cur.at(frame);
-            const double nearness = surface.nearness(place);
-            if (!(nearness >= kLeastNearness)) continue;
-            least = std::min(least, nearness);
-            const Metric metric = surface.metric(place);
-            const double cosine = facing(metric);
-            if (cosine > 0) field.add(place, metric, weight * cosine * cosine);
-        }
-    }
-    return least;
-}
-
-std::optional<double> tangent_of(std::optional<double> fov_deg, Size plate) {
-    if (!fov_deg) return std::nullopt;
-    return std::max(plate.width, plate.height) / camera_with(*fov_deg, plate).focal_px;
-}
-
 std::optional<RigidFit> fit_matches(const std::vector<FrameMatches>& matches, Size plate,
                                     const MotionLens& lens) {
     if (lens.shared && !lens.fov_deg) return fit_rigid_surface(matches, plate, *lens.shared);
@@ -129,6 +92,11 @@ bool believable(const RigidFit& fit, Size plate) {
 }
 
 }  // namespace
+
+std::optional<double> tangent_of(std::optional<double> fov_deg, Size plate) {
+    if (!fov_deg) return std::nullopt;
+    return std::max(plate.width, plate.height) / camera_with(*fov_deg, plate).focal_px;
+}
 
 std::optional<RigidFit> fit_motion(const std::vector<FormEvidence>& evidence, Size plate,
                                    const MotionLens& lens) {
@@ -150,24 +118,8 @@ FormMap form_from_motion(const std::vector<FormEvidence>& evidence, Size plate,
     }
     flat = finding_of(*fit, FormFinding::Source::kNone, lens);
     if (!believable(*fit, plate)) return flat_over(plate, flat);
-    const RigidSurface& surface = fit->surface;
-    MetricField field = field_over(plate, evidence);
-    double least = add_places(field, surface, evidence.front(), 1);
-    MetricField::Beyond beyond;
-    if (fit->plane) {
-        for (std::size_t k = 1; k < evidence.size(); ++k)
-            least = std::min(least, add_places(field, surface, evidence[k], kOtherFrames));
-        least *= kFurther;
-        beyond = [&surface, least](Vec2 place) {
-            return surface.nearness(place) >= least ? std::optional(surface.metric(place))
-                                                    : std::nullopt;
-        };
-    }
-    if (!field.finish(beyond)) return flat_over(plate, flat);
-    FormMap out = flat_from_reference(field);
-    out.finding = finding_of(*fit, FormFinding::Source::kMotion, lens);
-    add_relief(out, field, fit->fov_deg, plate, fit->plane);
-    return out;
+    return laid_flat(fit->surface, finding_of(*fit, FormFinding::Source::kMotion, lens), evidence,
+                     plate);
 }
 
 }  // namespace weft

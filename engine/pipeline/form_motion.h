@@ -15,6 +15,9 @@ struct MotionLens {
     int regions = 0;                           ///< so many of them.
 };
 
+/// Long side over focal length of a horizontal field of view, if one is given.
+[[nodiscard]] std::optional<double> tangent_of(std::optional<double> fov_deg, Size plate);
+
 /// The rigid surface that explains the motion. `evidence`: the reference frame first. Empty where
 /// form_from_motion() is flat. Thread-safe.
 [[nodiscard]] std::optional<RigidFit> fit_motion(const std::vector<FormEvidence>& evidence,

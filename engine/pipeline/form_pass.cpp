@@ -14,6 +14,7 @@
 #include "engine/pipeline/form_drawn.h"
 #include "engine/pipeline/form_evidence.h"
 #include "engine/pipeline/form_lens.h"
+#include "engine/pipeline/form_lines.h"
 #include "engine/pipeline/form_motion.h"
 #include "engine/pipeline/form_outline.h"
 #include "engine/pipeline/region_mattes.h"
@@ -79,7 +80,8 @@ Expected<FormMap> form_as_found(const PassContext& context, const AnalysisStore&
     const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
     if (plan.form_from == RegionPlan::FormFrom::kMotion) {
         lens.fov_deg = plan.form_fov_deg;
-        return form_from_motion(evidence, context.source.size(), lens);
+        return form_from_lines(context, region, evidence, lens,
+                               form_from_motion(evidence, context.source.size(), lens));
     }
     if (plan.form_from == RegionPlan::FormFrom::kShape)
         return form_from_drawing(evidence.front(), context.source.size(), plan);

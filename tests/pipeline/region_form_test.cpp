@@ -9,6 +9,7 @@
 #include "engine/pipeline/form_pass.h"
 #include "engine/pipeline/provisional.h"
 #include "engine/pipeline/region_scene.h"
+#include "tests/form/room_picture.h"
 #include "tests/pipeline/memory_shot.h"
 
 namespace weft {
@@ -117,6 +118,50 @@ TEST(RegionForm, WhatComesIntoViewIsFoundOnLaterFrames) {
     const float clip = widened(Column(), formed({1, 4, 7, 10}), kAt);
     EXPECT_NEAR(clip, kTrue, 0.12f);
     EXPECT_LT(std::abs(clip - kTrue), 0.5f * std::abs(first - kTrue)) << first << " and " << clip;
+}
+
+// A tiled room before a camera that stands still.
+MemoryShot still_room(const RoomPicture& room, int frames) {
+    MemoryShot shot(RoomPicture::kSize);
+    auto plate = std::make_shared<ImageF3>(RoomPicture::kSize);
+    for (int y = 0; y < RoomPicture::kSize.height; ++y)
+        for (int x = 0; x < RoomPicture::kSize.width; ++x)
+            std::fill_n(plate->pixel(x, y), 3, static_cast<float>(room.luma.at(x, y)) / 255.0f);
+    for (int frame = kFirst; frame < kFirst + frames; ++frame) {
+        shot.plates[frame] = plate;
+        shot.mattes[{0, frame}] = room.floor;
+    }
+    return shot;
+}
+
+FormFinding found_in(const MemoryShot& shot, RegionPlan region, int frames) {
+    region.form_from = RegionPlan::FormFrom::kMotion;
+    region.form_evidence.clear();
+    for (int frame = kFirst; frame < kFirst + frames; ++frame)
+        region.form_evidence.push_back(frame);
+    MemoryAnalysisStore store;
+    const Status analysed =
+        analyse_shot(shot, make_plan(region, kFirst, kFirst + frames - 1), store, {}, {});
+    EXPECT_TRUE(analysed) << (analysed ? "" : analysed.error().text());
+    const auto bytes = store.get({0, kFirst, AnalysisKind::kForm});
+    return bytes ? decode_form(*bytes)->finding : FormFinding();
+}
+
+TEST(RegionForm, LinesShowItWhereTheCameraStandsStill) {
+    const RoomPicture room;
+    RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
+    for (const int frames : {1, 4}) {
+        const MemoryShot shot = still_room(room, frames);
+        const FormFinding found = found_in(shot, region, frames);
+        EXPECT_EQ(found.source, FormFinding::Source::kLines) << frames;
+        EXPECT_TRUE(found.plane);
+        EXPECT_GT(found.belief, 0.9f);
+        // The floor's normal is (0, 1, 0), turned by the camera's pitch.
+        EXPECT_NEAR(found.tilt_deg, 64, 8) << frames;
+        EXPECT_NEAR(found.fov_deg, 56, 4) << frames;
+    }
+    region.surface = SurfaceKind::kCloth;
+    EXPECT_EQ(found_in(still_room(room, 1), region, 1).source, FormFinding::Source::kNone);
 }
 
 TEST(RegionForm, APassWithoutFormIsAnError) {

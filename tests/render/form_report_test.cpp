@@ -53,17 +53,32 @@ TEST(FormText, SaysHowSureTheLensIsAndWhoFoundIt) {
               "round, inflated from its outline");
 }
 
+TEST(FormText, SaysOnWhichFrameLinesShowIt) {
+    const FormReport form = found(Source::kLines, true, 1, 0.93f, 68, 2, 54);
+    EXPECT_EQ(
+        form_text(form),
+        "plane, from straight lines on frame 12, tilted 68° ± 2°, field of view 54°, believed "
+        "to 93 %");
+    EXPECT_EQ(form_json(form)["source"], "lines");
+    EXPECT_EQ(form_json(form)["plane"], true);
+}
+
 TEST(FormText, SaysWhyASurfaceIsFlat) {
     FormReport form = found(Source::kNone, true, 1, 0, 0, 0, 0);
-    EXPECT_EQ(form_text(form), "flat, because too few frames show it for motion to tell its form");
+    EXPECT_EQ(
+        form_text(form),
+        "flat, because too few frames show it for motion to tell its form, and its lines show "
+        "no plane");
     form = found(Source::kNone, true, 11, 0, 0, 0, 0);
-    EXPECT_EQ(form_text(form), "flat, because its motion is not that of a rigid thing");
+    EXPECT_EQ(form_text(form),
+              "flat, because its motion is not that of a rigid thing, and its lines show no plane");
     form.finding.no_parallax = true;
     EXPECT_EQ(form_text(form),
-              "flat, because the camera only turns or zooms; draw its form by hand");
+              "flat, because the camera only turns or zooms, and its lines show no plane; draw its "
+              "form by hand");
     EXPECT_EQ(form_json(form)["reason"], "no_parallax");
     form = found(Source::kNone, true, 11, 0.4f, 30, 24, 47);
-    EXPECT_EQ(form_text(form), "flat, because motion does not tell its form well enough");
+    EXPECT_EQ(form_text(form), "flat, because neither motion nor lines tell its form well enough");
     form.not_sought = FormReport::NotSought::kCorners;
     EXPECT_EQ(form_text(form), "flat, because its corners give the perspective");
     form = found(Source::kMotion, true, 11, 1, 71, 2, 47);

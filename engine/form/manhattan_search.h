@@ -1,0 +1,34 @@
+#pragma once
+// The Manhattan frames that the lines of a picture speak for.
+
+#include <functional>
+#include <vector>
+
+#include "engine/form/manhattan_frame.h"
+
+namespace weft {
+
+struct ManhattanFit {
+    ManhattanFrame frame;
+    double gain = 0;         ///< ln, of the lines alone.
+    double evidence = 0;     ///< ln of the posterior's volume: gain, what was believed, and errors.
+    FrameMatrix covariance;  ///< Of a FrameStep.
+};
+
+/// Whether a normal (either sign), seen by a lens of that tangent, may be that of the surface.
+using NormalTest = std::function<bool(const glm::dvec3& normal, double tangent)>;
+
+/// The most likely frames, best first, none of them twice: a search over normals and lenses, each
+/// with the best turn of the other axes by a vote of the lines, then Gauss–Newton steps on the
+/// lines that each frame explains. `lens`: what is believed of the tangent before. `possible`
+/// decides on the third axis. Evidence is by Laplace's approximation (MacKay 2003, ch. 27), next to
+/// no frame at all, which has 0. Bit-identical everywhere; thread-safe.
+[[nodiscard]] std::vector<ManhattanFit> find_manhattan(const ManhattanLines& lines,
+                                                       const TangentBelief& lens,
+                                                       const NormalTest& possible);
+
+/// The turn about the third axis that explains the lines best, and what they gain by it.
+[[nodiscard]] std::pair<ManhattanFrame, double> turned_best(const ManhattanLines& lines,
+                                                            const ManhattanFrame& frame);
+
+}  // namespace weft
