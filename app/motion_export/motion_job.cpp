@@ -214,6 +214,7 @@ Status write_pictures(MotionRun& job) {
 Expected<MotionJobResult> run_motion_job(const MotionJobSpec& spec, const CancelToken& cancel,
                                          const ProgressFn& progress) {
     use_threads(spec.threads);
+    keep_freed_memory();
     MotionRun job{spec, cancel, progress, {}, {}, {}, {}, {}, {}, {}, {}};
     WEFT_CHECK_OK(open_job(job));
     WEFT_CHECK_OK(analyse(job));

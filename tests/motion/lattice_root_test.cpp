@@ -50,8 +50,7 @@ TEST(ThroughReference, JoinsTwoFramesThatTheReferenceFrameDoesNotShow) {
         return Vec2(6, -2) + 2.0f * Vec2(std::cos(0.03f * p.y), std::sin(0.03f * p.x));
     };
     float worst = 0, by_inverse = 0;
-    const LatticeField composed =
-        compose(lattice_of(panned_more), inverse(lattice_of(panned)));
+    const LatticeField composed = compose(lattice_of(panned_more), inverse(lattice_of(panned)));
     for (int y = 4; y < 116; y += 5)
         for (int x = 4; x < 190; x += 5) {
             const Vec2 p(static_cast<float>(x), static_cast<float>(y));
