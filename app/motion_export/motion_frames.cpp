@@ -28,13 +28,18 @@ void add(Hasher& hasher, const LatticeField& field) {
     if (!field.empty()) hasher.image(field.nodes());
 }
 
-std::string hash_of(const WrittenMotion& motion) {
+// Only of what is in the pictures, so that those of one kind do not depend on the others.
+std::string hash_of_maps(const WrittenMotion& motion) {
     Hasher hasher;
-    for (const LatticeField* field :
-         {&motion.ref_from_cur, &motion.next_from_cur, &motion.prev_from_cur})
-        add(hasher, *field);
-    hasher.image(motion.visible).value(motion.confidence);
-    return hasher.finish().hex();
+    add(hasher, motion.ref_from_cur);
+    return hasher.image(motion.visible).finish().hex();
+}
+
+std::string hash_of_vectors(const WrittenMotion& motion) {
+    Hasher hasher;
+    add(hasher, motion.next_from_cur);
+    add(hasher, motion.prev_from_cur);
+    return hasher.image(motion.visible).value(motion.confidence).finish().hex();
 }
 
 Expected<LatticeField> to_neighbour(const MotionFramesInputs& in, int frame, int step,
@@ -121,26 +126,29 @@ Status write_one_way(const std::string& path, const StMap& map, StConvention con
 // The pictures of one frame, of which those that are there already may be kept.
 class FramePictures {
   public:
-    FramePictures(const MotionFramesInputs& in, int frame, std::string inputs)
-        : in_(in), frame_(frame), inputs_(std::move(inputs)) {}
+    FramePictures(const MotionFramesInputs& in, int frame) : in_(in), frame_(frame) {}
 
-    // Calls `write` with path and options unless the picture is kept. `settings`: what decides it
-    // besides the motion.
+    // What decides a picture.
+    struct Source {
+        std::string settings, inputs;
+    };
+    // Calls `write` with path and options unless the picture is kept.
     template <class Write>
-    Status make(const std::string& relative, const std::string& settings, const Write& write) {
+    Status make(const std::string& relative, const Source& source, const Write& write) {
         WEFT_TRY(pattern, motion_pattern(in_.spec.folder, relative));
         const std::string path = pattern.path_for(frame_);
         Hasher hasher;
-        hasher.text("weft.motion/1").text(settings);
+        hasher.text("weft.motion/1").text(source.settings);
         const std::string hash = hasher.finish().hex();
-        if (is_kept(path, hash)) {
+        if (is_kept(path, hash, source.inputs)) {
             ++done.kept;
             return {};
         }
         WriteOptions options;
         options.pixel_aspect = in_.shot.plate->pixel_aspect();
-        options.metadata = {
-            {"weft:version", WEFT_VERSION}, {"weft:settings", hash}, {"weft:inputs", inputs_}};
+        options.metadata = {{"weft:version", WEFT_VERSION},
+                            {"weft:settings", hash},
+                            {"weft:inputs", source.inputs}};
         options.rule = in_.rule;
         WEFT_CHECK_OK(write(path, options));
         ++done.written;
@@ -150,11 +158,12 @@ class FramePictures {
     MotionPictures done;
 
   private:
-    [[nodiscard]] bool is_kept(const std::string& path, const std::string& settings) const {
+    [[nodiscard]] bool is_kept(const std::string& path, const std::string& settings,
+                               const std::string& inputs) const {
         if (in_.spec.existing != ExistingFrames::kResume) return false;
         auto had = read_recipe_metadata(path);
         if (had["weft:version"] != WEFT_VERSION || had["weft:settings"] != settings ||
-            had["weft:inputs"] != inputs_)
+            had["weft:inputs"] != inputs)
             return false;
         const auto image = read_image(path);
         return image && image->rgb.size() == in_.surface.size();
@@ -162,7 +171,6 @@ class FramePictures {
 
     const MotionFramesInputs& in_;
     int frame_;
-    std::string inputs_;
 };
 
 Status write_maps(const MotionFramesInputs& in, const WrittenMotion& motion,
@@ -179,16 +187,17 @@ Status write_maps(const MotionFramesInputs& in, const WrittenMotion& motion,
         return *found;
     };
     const std::string settings = std::string("st ") + name_of(in.spec.st);
+    const std::string inputs = hash_of_maps(motion);
     if (in.paths.stabilize.empty())
-        return pictures.make(in.paths.st_map, settings,
+        return pictures.make(in.paths.st_map, {settings, inputs},
                              [&](const std::string& path, const WriteOptions& options) {
                                  return write_st_maps(path, maps(), options);
                              });
-    WEFT_CHECK_OK(pictures.make(in.paths.st_map, settings + " match-move",
+    WEFT_CHECK_OK(pictures.make(in.paths.st_map, {settings + " match-move", inputs},
                                 [&](const std::string& path, const WriteOptions& options) {
                                     return write_one_way(path, maps().warp, in.spec.st, options);
                                 }));
-    return pictures.make(in.paths.stabilize, settings + " stabilize",
+    return pictures.make(in.paths.stabilize, {settings + " stabilize", inputs},
                          [&](const std::string& path, const WriteOptions& options) {
                              return write_one_way(path, maps().stabilize, in.spec.st, options);
                          });
@@ -198,10 +207,11 @@ Status write_maps(const MotionFramesInputs& in, const WrittenMotion& motion,
 
 Expected<MotionPictures> write_motion_frame(const MotionFramesInputs& in, int frame) {
     WEFT_TRY(motion, motion_of(in, frame));
-    FramePictures pictures(in, frame, hash_of(motion));
+    FramePictures pictures(in, frame);
     if (!in.paths.st_map.empty()) WEFT_CHECK_OK(write_maps(in, motion, pictures));
     if (in.paths.vectors.empty()) return pictures.done;
     const FrameVectors vectors = vectors_of(motion);
+    const std::string inputs = hash_of_vectors(motion);
     for (const auto& [convention, pattern] : in.paths.vectors)
         WEFT_CHECK_OK(pictures.make(
             pattern, std::string("vectors ") + name_of(convention),

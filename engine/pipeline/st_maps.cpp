@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vector_relational.hpp>
 
 #include "engine/core/parallel.h"
 #include "engine/motion/lattice_field.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr int kMapBandRows = 16;
 constexpr float kMissedPx = 0.05f;  // a place that is missed by more is not shown
+constexpr float kBesidePx = 16;     // the inverse lattice is off by less, except beside folds
 
 void put_place(StMap& map, int x, int y, Vec2 place, float visible) {
     const Size size = map.visible.size();
@@ -57,11 +59,17 @@ float coverage_at(const Matte& matte, Vec2 place) {
 
 void add_stabilize(StMap& map, const LatticeField& ref_from_cur, const Matte& visible) {
     const LatticeField cur_from_ref = inverse(ref_from_cur);
+    const Recti box = matte_bounds(visible);
+    const Vec2 low(box.x0, box.y0), high(box.x1, box.y1);
     parallel_rows(visible.height(), kMapBandRows, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < visible.width(); ++x) {
                 const Vec2 q = centre_of_pixel(x, y);
-                const LatticeRoot root = root_of(ref_from_cur, q, q + cur_from_ref.at(q));
+                const Vec2 start = q + cur_from_ref.at(q);
+                if (glm::any(glm::lessThan(start, low - kBesidePx)) ||
+                    glm::any(glm::greaterThan(start, high + kBesidePx)))
+                    continue;
+                const LatticeRoot root = root_of(ref_from_cur, q, start);
                 if (!(root.miss <= kMissedPx)) continue;
                 const float share = coverage_at(visible, root.place);
                 if (share > 0) put_place(map, x, y, root.place, share);

@@ -20,6 +20,7 @@ const std::vector<Untested> kThroughOthers{
     {"app/measure/measure_job.h", "tests/cli: weft measure"},
     {"app/measure/measure_report.h", "tests/cli: weft measure"},
     {"app/measure/truth_measure.h", "tests/cli: weft measure"},
+    {"app/exchange/motion_schema.h", "tests/exchange, through schemas.h"},
     {"app/motion_export/motion_frames.h", "tests/cli: weft motion"},
     {"app/motion_export/motion_job.h", "tests/cli: weft motion"},
     {"app/motion_export/motion_manifest.h", "tests/cli: weft motion"},

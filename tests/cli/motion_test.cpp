@@ -26,9 +26,7 @@ class MotionCommand : public CliTest {
         expect_success(run(add));
     }
     Outcome motion(const Words& more = {}) const {
-        Words words{"motion", "shot.weft", "-o", "out"};
-        words.insert(words.end(), more.begin(), more.end());
-        return run(words);
+        return run(with_options({"motion", "shot.weft", "-o", "out"}, more));
     }
     // Steps of the analysis that a run took.
     static int analysed(const Outcome& outcome) {
@@ -236,12 +234,16 @@ TEST_F(MotionCommand, ADiskThatIsFullLeavesAFolderThatIsNotComplete) {
     options_.largest_file_bytes = 8192;
     expect_failure(motion({"--export", "st", "--progress", "none"}), 6,
                    {"Frame 100", "out/card/st/100"});
-    EXPECT_TRUE(names("out/card/st").empty());
+    // The reference frame's map of nothing but its own places is small.
+    const auto whole = contents("first/card/st"), part = contents("out/card/st");
+    EXPECT_LT(part.size(), whole.size());
+    for (const auto& [name, hash] : part)
+        EXPECT_EQ(hash, whole.at(name)) << name;
     EXPECT_EQ(Json::parse(bytes("out/motion.json"))["complete"], false);
     options_.largest_file_bytes = 0;
     expect_success(motion({"--export", "st", "--resume"}));
     EXPECT_EQ(Json::parse(bytes("out/motion.json"))["complete"], true);
-    EXPECT_EQ(contents("out/card/st"), contents("first/card/st"));
+    EXPECT_EQ(contents("out/card/st"), whole);
 }
 
 TEST_F(MotionCommand, SaysWhatIsWrong) {
@@ -254,7 +256,7 @@ TEST_F(MotionCommand, SaysWhatIsWrong) {
     expect_failure(run({"motion", "gone.weft", "-o", "out"}), 3, {"gone.weft"});
     put_matte("masks/1002.png", Matte(Card::kPlate));
     expect_failure(motion({"--reference", "1002", "--progress", "none"}), 2,
-                   {"1002 shows nothing of region 'card'", "frames 1001 and 1003"});
+                   {"1002 shows nothing of region 'card'", "frames 1001,1003"});
     EXPECT_FALSE(fs::exists(in("out")));
     expect_success(run({"region", "set", "shot.weft", "card", "--temporal", "none"}));
     expect_failure(motion(), 2, {"'card'", "--temporal locked"});

@@ -89,7 +89,7 @@ TEST(CornerTrackText, WritesNoNegativeZero) {
     CornerTrack track;
     track[1] = {{{-1e-9, 0}, {10, -1e-9}, {10, 10}, {0, 10}}};
     CornerTextContext context = text_context();
-    context.reference = 1;
+    context.reference = context.first_frame = 1;
     EXPECT_THAT(after_effects_corner_pin(track, context), HasSubstr("\t0\t0\t0\t\r\n"));
 }
 
