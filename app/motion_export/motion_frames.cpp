@@ -214,7 +214,7 @@ Expected<MotionPictures> write_motion_frame(const MotionFramesInputs& in, int fr
     const std::string inputs = hash_of_vectors(motion);
     for (const auto& [convention, pattern] : in.paths.vectors)
         WEFT_CHECK_OK(pictures.make(
-            pattern, std::string("vectors ") + name_of(convention),
+            pattern, {std::string("vectors ") + name_of(convention), inputs},
             [&, convention = convention](const std::string& path, const WriteOptions& options) {
                 return write_vectors(path, vectors, convention, options);
             }));
