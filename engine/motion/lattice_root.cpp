@@ -28,12 +28,17 @@ LatticeRoot root_of(const LatticeField& field, Vec2 target, Vec2 start) {
     return {p, glm::length(r)};
 }
 
+LatticeField coarse_inverse(const LatticeField& field) {
+    constexpr int kCoarse = 16;
+    return inverse(field.spacing() < kCoarse ? field.resampled(kCoarse) : field);
+}
+
 LatticeField through_reference(const LatticeField& ref_from_here,
                                const LatticeField& ref_from_there) {
     if (ref_from_there.spacing() < ref_from_here.spacing())
         return through_reference(ref_from_here.resampled(ref_from_there.spacing()), ref_from_there);
     LatticeField out(ref_from_here.full_size(), ref_from_here.spacing());
-    const LatticeField there_from_ref = inverse(ref_from_there);
+    const LatticeField there_from_ref = coarse_inverse(ref_from_there);
     for (int j = 0; j < out.nodes().height(); ++j) {
         for (int i = 0; i < out.nodes().width(); ++i) {
             const Vec2 p = out.node_position(i, j), target = p + ref_from_here.node(i, j);

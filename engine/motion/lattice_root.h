@@ -13,6 +13,10 @@ struct LatticeRoot {
 /// than `start` is. Thread-safe.
 [[nodiscard]] LatticeRoot root_of(const LatticeField& field, Vec2 target, Vec2 start);
 
+/// About inverse(field), on nodes that are no closer than 16 px, which takes far less time where
+/// the field's are: where to start root_of() from.
+[[nodiscard]] LatticeField coarse_inverse(const LatticeField& field);
+
 /// there_from_here of a surface whose ref_from_here and ref_from_there are known: each node goes to
 /// the place of `there` that shows the same place of the reference frame. Unlike
 /// compose(ref_from_here, inverse(ref_from_there)) it needs nothing of the reference frame beyond

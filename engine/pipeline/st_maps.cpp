@@ -58,7 +58,7 @@ float coverage_at(const Matte& matte, Vec2 place) {
 }
 
 void add_stabilize(StMap& map, const LatticeField& ref_from_cur, const Matte& visible) {
-    const LatticeField cur_from_ref = inverse(ref_from_cur);
+    const LatticeField cur_from_ref = coarse_inverse(ref_from_cur);
     const Recti box = matte_bounds(visible);
     const Vec2 low(box.x0, box.y0), high(box.x1, box.y1);
     parallel_rows(visible.height(), kMapBandRows, [&](int y0, int y1) {
