@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/vector_relational.hpp>
+#include <optional>
 
 #include "engine/core/parallel.h"
 #include "engine/motion/lattice_field.h"
@@ -58,19 +59,27 @@ float coverage_at(const Matte& matte, Vec2 place) {
 }
 
 void add_stabilize(StMap& map, const LatticeField& ref_from_cur, const Matte& visible) {
-    const LatticeField cur_from_ref = coarse_inverse(ref_from_cur);
+    const ImageF2 cur_from_ref =
+        coarse_inverse(ref_from_cur).dense({0, 0, visible.width(), visible.height()});
     const Recti box = matte_bounds(visible);
     const Vec2 low(box.x0, box.y0), high(box.x1, box.y1);
     parallel_rows(visible.height(), kMapBandRows, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
+            std::optional<Vec2> beside;
             for (int x = 0; x < visible.width(); ++x) {
                 const Vec2 q = centre_of_pixel(x, y);
-                const Vec2 start = q + cur_from_ref.at(q);
+                const float* d = cur_from_ref.pixel(x, y);
+                const Vec2 start = q + Vec2(d[0], d[1]);
                 if (glm::any(glm::lessThan(start, low - kBesidePx)) ||
                     glm::any(glm::greaterThan(start, high + kBesidePx)))
                     continue;
-                const LatticeRoot root = root_of(ref_from_cur, q, start);
+                LatticeRoot root = root_of(ref_from_cur, q, start);
+                // Beside a fold it is near where the pixel before came from.
+                if (!(root.miss <= kMissedPx) && beside)
+                    root = root_of(ref_from_cur, q, q + *beside);
+                beside.reset();
                 if (!(root.miss <= kMissedPx)) continue;
+                beside = root.place - q;
                 const float share = coverage_at(visible, root.place);
                 if (share > 0) put_place(map, x, y, root.place, share);
             }
