@@ -110,7 +110,7 @@ void add_schema(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand(
         "schema", "Print the JSON Schema of projects, actions, reports or errors");
     const auto name = std::make_shared<std::string>();
-    command->add_option("name", *name, "project, actions, report or error")->required();
+    command->add_option("name", *name, "project, actions, report, motion or error")->required();
     command->footer("Example:\n  weft schema project > project.schema.json");
     on_run(*command, result, [=]() -> CommandResult {
         WEFT_TRY(schema, json_schema(*name));

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "app/exchange/motion_schema.h"
 #include "app/project/codec/project_json.h"
 #include "app/project/parameters.h"
 
@@ -382,8 +383,9 @@ Expected<std::string> json_schema(const std::string& name) {
     if (name == "actions") return actions_schema().dump(2) + "\n";
     if (name == "report") return report_schema().dump(2) + "\n";
     if (name == "error") return error_schema().dump(2) + "\n";
+    if (name == "motion") return motion_schema_text();
     return fail(ErrorCode::kUsage, "Unknown schema '" + name + "'.",
-                "The schemas are project, actions, report and error.");
+                "The schemas are project, actions, report, motion and error.");
 }
 
 }  // namespace weft

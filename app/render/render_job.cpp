@@ -268,6 +268,8 @@ Expected<JobResult> attempt_job(const JobSpec& spec, const std::vector<int>& lea
     return std::move(job.setup.result);
 }
 
+}  // namespace
+
 // A picture of 3840x2160 has 25 to 100 MB, and glibc returns blocks of more than 32 MB to the
 // system at once: 12 % of the time of a render went into getting zeroed pages again and again. The
 // peak of such a render grows by up to 17 % (1.40 to 1.64 GB, with 12 frames as with 40). Arenas of
@@ -280,8 +282,6 @@ void keep_freed_memory() {
     mallopt(M_ARENA_MAX, 1);
 #endif
 }
-
-}  // namespace
 
 Expected<JobStage> parse_job_stage(const std::string& name) {
     static const std::map<std::string, JobStage> kNames{

@@ -46,6 +46,9 @@ void make_libraries_deterministic();
 /// calls make_libraries_deterministic().
 void use_threads(int threads);
 
+/// Keeps freed memory for the pictures that follow, in a process that makes many of them.
+void keep_freed_memory();
+
 /// A snapshot of everything that a render needs.
 struct JobSpec {
     Project project;  ///< With absolute paths.

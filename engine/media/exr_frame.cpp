@@ -62,23 +62,31 @@ Expected<std::vector<ExrPart>> read_parts(const std::string& path) {
     return parts;
 }
 
+// Stores what `sample` gives for each place of a picture in a channel. `origin`: the position of
+// the picture's (0, 0) in the part. OpenImageIO adds a pixel's bytes up anew each time it is asked.
+template <class Sample>
+void fill_channel(ExrPart& part, int channel, Vec2i origin, Size size, const Sample& sample) {
+    const std::size_t offset = part.offset_of(channel), step = part.pixel_bytes();
+    const TypeDesc format = part.spec.channelformat(channel);
+    for (int y = 0; y < size.height; ++y) {
+        unsigned char* to = part.pixel(origin.x, origin.y + y) + offset;
+        for (int x = 0; x < size.width; ++x, to += step)
+            store_sample(to, format, sample(x, y));
+    }
+}
+
 // `origin`: the position of the picture's (0, 0) in the part.
 void fill_layers(ExrPart& part, const std::vector<ExrLayer>& layers, Vec2i origin, Size size) {
     for (const ExrLayer& layer : layers) {
         const std::size_t count = layer.channels.size();
         for (std::size_t c = 0; c < count; ++c) {
-            const int channel = channel_named(part.spec, layer.channels[c]);
-            const std::size_t offset = part.offset_of(channel);
-            const TypeDesc format = part.spec.channelformat(channel);
-            for (int y = 0; y < size.height; ++y) {
-                for (int x = 0; x < size.width; ++x) {
+            fill_channel(
+                part, channel_named(part.spec, layer.channels[c]), origin, size, [&](int x, int y) {
                     const std::size_t pixel =
                         static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
                         static_cast<std::size_t>(x);
-                    store_sample(part.pixel(origin.x + x, origin.y + y) + offset, format,
-                                 layer.samples[pixel * count + c]);
-                }
-            }
+                    return layer.samples[pixel * count + c];
+                });
         }
     }
 }
@@ -111,11 +119,16 @@ ExrPart picture_over(ExrPart part, const ExrFrame& frame, const std::array<int, 
     }
     part = with_window(std::move(part), window);
     for (std::size_t c = 0; c < 3; ++c) {
+        if (frame.touched.empty()) {
+            fill_channel(part, rgb[c], origin, frame.rgb.size(),
+                         [&](int x, int y) { return frame.rgb.pixel(x, y)[c]; });
+            continue;
+        }
         const std::size_t offset = part.offset_of(rgb[c]);
         const TypeDesc format = part.spec.channelformat(rgb[c]);
         for (int y = 0; y < frame.rgb.height(); ++y) {
             for (int x = 0; x < frame.rgb.width(); ++x) {
-                if (!frame.touched.empty() && frame.touched.row(y)[x] == 0) continue;
+                if (frame.touched.row(y)[x] == 0) continue;
                 store_sample(part.pixel(origin.x + x, origin.y + y) + offset, format,
                              frame.rgb.pixel(x, y)[c]);
             }
@@ -137,13 +150,9 @@ ExrPart fresh_part(const ExrFrame& frame, PixelDepth depth, double pixel_aspect)
     part.bytes.assign(part.pixel_bytes() * static_cast<std::size_t>(frame.rgb.width()) *
                           static_cast<std::size_t>(frame.rgb.height()),
                       0);
-    if (alpha) {
-        for (int y = 0; y < frame.rgb.height(); ++y) {
-            for (int x = 0; x < frame.rgb.width(); ++x)
-                store_sample(part.pixel(x, y) + part.offset_of(3), part.spec.format,
-                             frame.alpha.row(y)[x]);
-        }
-    }
+    if (alpha)
+        fill_channel(part, 3, {0, 0}, frame.rgb.size(),
+                     [&](int x, int y) { return frame.alpha.row(y)[x]; });
     return part;
 }
 

@@ -68,13 +68,14 @@ LatticeField misses_of_surface(const FlowField& misses, ViewU8x1 weights, int sp
 LatticeField misses_of_parts(const FlowField& misses, ViewU8x1 weights, const LatticeField& like) {
     constexpr float kReached_px = 0.5f, kLost_px = 1.5f;
     constexpr double kNoise_px = 0.5, kPatch_px = 8, kBend_px = 1;  // of raw motion; of the field
-    constexpr int kStride = 2, kIterations = 80;
+    constexpr int kEveryOther = 2, kIterations = 80;
     LatticeField out(like.full_size(), like.spacing());
     BendingSystem system(out);
-    constexpr double kEach = kStride * kStride / (kPatch_px * kPatch_px * kNoise_px * kNoise_px);
+    constexpr double kEach =
+        kEveryOther * kEveryOther / (kPatch_px * kPatch_px * kNoise_px * kNoise_px);
     const Size size = weights.size();
-    for (int y = 0; y < size.height; y += kStride) {
-        for (int x = 0; x < size.width; x += kStride) {
+    for (int y = 0; y < size.height; y += kEveryOther) {
+        for (int x = 0; x < size.width; x += kEveryOther) {
             const double w = kEach * weights.at(x, y) / 255;
             if (!(w > 0)) continue;
             const float* d = misses.d.pixel(x, y);

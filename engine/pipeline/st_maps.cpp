@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vector_relational.hpp>
+#include <optional>
 
 #include "engine/core/parallel.h"
 #include "engine/motion/lattice_field.h"
+#include "engine/motion/lattice_root.h"
 #include "engine/pipeline/motion_zones.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
@@ -13,9 +16,8 @@ namespace weft {
 namespace {
 
 constexpr int kMapBandRows = 16;
-constexpr int kSteps = 4;  // of Newton's method, from the inverse lattice on
-constexpr float kSettledPx = 1e-3f;
 constexpr float kMissedPx = 0.05f;  // a place that is missed by more is not shown
+constexpr float kBesidePx = 16;     // the inverse lattice is off by less, except beside folds
 
 void put_place(StMap& map, int x, int y, Vec2 place, float visible) {
     const Size size = map.visible.size();
@@ -39,27 +41,6 @@ void add_warp(StMap& map, const LatticeField& ref_from_cur, const Matte& visible
     });
 }
 
-// The place near `start` that the field takes to `target`, and by how much it is missed, px.
-struct Root {
-    Vec2 place;
-    float miss;
-};
-
-Root root_of(const LatticeField& ref_from_cur, Vec2 target, Vec2 start) {
-    const auto residual = [&](Vec2 p) { return p + ref_from_cur.at(p) - target; };
-    constexpr float kStep = 1;
-    Vec2 p = start, r = residual(p);
-    for (int k = 0; k < kSteps && glm::length(r) > kSettledPx; ++k) {
-        const glm::mat2 slope(residual(p + Vec2(kStep, 0)) - r, residual(p + Vec2(0, kStep)) - r);
-        if (!(std::abs(glm::determinant(slope)) > 1e-6f)) break;
-        const Vec2 next = p - glm::inverse(slope) * r;
-        const Vec2 left = residual(next);
-        if (!(glm::length(left) < glm::length(r))) break;
-        p = next, r = left;
-    }
-    return {p, glm::length(r)};
-}
-
 // Between the centres of four pixels; 0 beyond the picture.
 float coverage_at(const Matte& matte, Vec2 place) {
     const float fx = place.x - 0.5f, fy = place.y - 0.5f;
@@ -78,13 +59,27 @@ float coverage_at(const Matte& matte, Vec2 place) {
 }
 
 void add_stabilize(StMap& map, const LatticeField& ref_from_cur, const Matte& visible) {
-    const LatticeField cur_from_ref = inverse(ref_from_cur);
+    const ImageF2 cur_from_ref =
+        coarse_inverse(ref_from_cur).dense({0, 0, visible.width(), visible.height()});
+    const Recti box = matte_bounds(visible);
+    const Vec2 low(box.x0, box.y0), high(box.x1, box.y1);
     parallel_rows(visible.height(), kMapBandRows, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
+            std::optional<Vec2> beside;
             for (int x = 0; x < visible.width(); ++x) {
                 const Vec2 q = centre_of_pixel(x, y);
-                const Root root = root_of(ref_from_cur, q, q + cur_from_ref.at(q));
+                const float* d = cur_from_ref.pixel(x, y);
+                const Vec2 start = q + Vec2(d[0], d[1]);
+                if (glm::any(glm::lessThan(start, low - kBesidePx)) ||
+                    glm::any(glm::greaterThan(start, high + kBesidePx)))
+                    continue;
+                LatticeRoot root = root_of(ref_from_cur, q, start);
+                // Beside a fold it is near where the pixel before came from.
+                if (!(root.miss <= kMissedPx) && beside)
+                    root = root_of(ref_from_cur, q, q + *beside);
+                beside.reset();
                 if (!(root.miss <= kMissedPx)) continue;
+                beside = root.place - q;
                 const float share = coverage_at(visible, root.place);
                 if (share > 0) put_place(map, x, y, root.place, share);
             }
@@ -92,13 +87,23 @@ void add_stabilize(StMap& map, const LatticeField& ref_from_cur, const Matte& vi
     });
 }
 
+StMaps empty_maps(Size size) {
+    return {{ImageF2(size), ImageF1(size)}, {ImageF2(size), ImageF1(size)}};
+}
+
 }  // namespace
+
+StMaps st_maps_of(const LatticeField& there_from_here, const Matte& visible) {
+    StMaps out = empty_maps(visible.size());
+    add_warp(out.warp, there_from_here, visible);
+    add_stabilize(out.stabilize, there_from_here, visible);
+    return out;
+}
 
 Expected<StMaps> st_maps(const ShotSource& source, const ShotPlan& plan,
                          const AnalysisStore& analysis, int frame) {
     const ZonedAnalysis store(source, plan, analysis);
-    const Size size = source.size();
-    StMaps out{{ImageF2(size), ImageF1(size)}, {ImageF2(size), ImageF1(size)}};
+    StMaps out = empty_maps(source.size());
     for (int k = 0; k < static_cast<int>(plan.regions.size()); ++k) {
         WEFT_TRY(visible, shown_matte(source, plan, store, k, frame));
         WEFT_TRY(bytes, store.get({k, frame, AnalysisKind::kCoords}));

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/image.h"
+#include "engine/motion/lattice_field.h"
 #include "engine/pipeline/analysis_store.h"
 #include "engine/pipeline/region_plan.h"
 #include "engine/pipeline/shot_source.h"
@@ -30,5 +31,9 @@ struct StMaps {
 /// those of the source and the store. Thread-safe; bit-identical everywhere.
 [[nodiscard]] Expected<StMaps> st_maps(const ShotSource& source, const ShotPlan& plan,
                                        const AnalysisStore& store, int frame);
+
+/// The maps of one surface between any two frames: `there` takes the reference frame's place.
+/// `visible`: where `here` shows it. Thread-safe; bit-identical everywhere.
+[[nodiscard]] StMaps st_maps_of(const LatticeField& there_from_here, const Matte& visible);
 
 }  // namespace weft

@@ -21,7 +21,7 @@ using ::testing::IsEmpty;
 using Tools = CliTest;
 
 TEST_F(Tools, ThePublishedSchemasAreThoseOfTheProgram) {
-    for (const char* name : {"project", "actions", "report"}) {
+    for (const char* name : {"project", "actions", "report", "motion"}) {
         const Outcome outcome = run({"schema", name});
         expect_success(outcome);
         std::ifstream file((source_folder() + "/docs/schemas/") + name + ".schema.json");

@@ -87,7 +87,7 @@ TEST_F(Exchange, CryptomatteObjectsComeFromThePlateByDefault) {
 }
 
 TEST(Schemas, AreThoseOfTheDocumentation) {
-    for (const char* name : {"project", "actions", "report"}) {
+    for (const char* name : {"project", "actions", "report", "motion"}) {
         std::ifstream file(test::source_folder() + "/docs/schemas/" + name + ".schema.json");
         const std::string documented(std::istreambuf_iterator<char>(file), {});
         ASSERT_FALSE(documented.empty()) << name;
