@@ -8,6 +8,7 @@
 
 #include "app/cache/analysis_cache.h"
 #include "engine/core/cancel.h"
+#include "engine/core/progress.h"
 
 namespace weft {
 
@@ -23,5 +24,11 @@ inline constexpr std::chrono::milliseconds kRenderPatience{60'000}, kEditorPatie
                                            std::chrono::milliseconds patience,
                                            const CancelToken& cancel,
                                            const std::function<bool()>& enough);
+
+/// The same for the whole analysis of a plan; `progress` is told how far another one is with it, as
+/// the stage "wait".
+[[nodiscard]] AnalysisClaim claim_analysis(const AnalysisCache& cache, const ShotPlan& plan,
+                                           std::chrono::milliseconds patience,
+                                           const CancelToken& cancel, const ProgressFn& progress);
 
 }  // namespace weft

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/preview/seam_visibility.h"
 #include "engine/color/color_space.h"
+#include "engine/metrics/seam_visibility.h"
 #include "engine/pipeline/render_frame.h"
 
 namespace weft {

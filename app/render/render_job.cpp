@@ -83,34 +83,10 @@ Status motion_stage(const JobRun& job) {
 
 // ---- analysis --------------------------------------------------------------------------------
 
-// While another process, such as the editor, makes the same analysis: says how far it is.
-class AwaitedAnalysis {
-  public:
-    AwaitedAnalysis(const ShotPlan& plan, const AnalysisStore& store, const ProgressFn& progress)
-        : plan_(plan), store_(store), progress_(progress) {}
-    // Whether nothing is left to be done.
-    bool operator()() {
-        const std::int64_t left = count_analysis_steps(plan_, store_);
-        if (total_ < 0) {
-            total_ = left;
-        } else if (progress_) {
-            done_ = std::max(done_, total_ - left);
-            progress_({"wait", done_, total_, 0, 0});
-        }
-        return left == 0;
-    }
-
-  private:
-    const ShotPlan& plan_;
-    const AnalysisStore& store_;
-    const ProgressFn& progress_;
-    std::int64_t done_ = 0, total_ = -1;
-};
-
 Status analysis_stage(const JobRun& job) {
     if (job.nothing_to_render() || job.spec.stage == JobStage::kEncode) return {};
-    const auto claim = claim_analysis(*job.store, kRenderPatience, job.cancel,
-                                      AwaitedAnalysis(job.plan, *job.store, job.progress));
+    const auto claim =
+        claim_analysis(*job.store, job.plan, kRenderPatience, job.cancel, job.progress);
     return analyse_shot(*job.shot().source, job.plan, *job.store, job.cancel, job.progress,
                         job.setup.backend.get());
 }

@@ -1,5 +1,5 @@
 // The strip of seams shows what an eye would see.
-#include "app/preview/seam_visibility.h"
+#include "engine/metrics/seam_visibility.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr Size kSize{256, 192};
 
-ImageF3 picture(const std::function<float(int, int)>& grey) {
+ImageF3 seamed_picture(const std::function<float(int, int)>& grey) {
     ImageF3 out(kSize.width, kSize.height);
     for (int y = 0; y < kSize.height; ++y)
         for (int x = 0; x < kSize.width; ++x)
@@ -37,33 +37,33 @@ float share(const ImageF3& pixels, const std::function<bool(int, int)>& is_seam)
 }
 
 TEST(SeamVisibility, SeamsAlongTheJointsOfTilesAreNotSeen) {
-    const float along = share(picture(tiles), [](int x, int y) {
+    const float along = share(seamed_picture(tiles), [](int x, int y) {
         return x % 96 == 2 || y % 96 == 2;  // the edge of every fourth joint
     });
     EXPECT_GE(along, 0);
     EXPECT_LT(along, 0.03f);
     // Such a seam is many times as steep as the tiles are in the mean, which was what was shown.
-    const float across = share(picture(tiles), [](int x, int) { return x % 96 == 12; });
+    const float across = share(seamed_picture(tiles), [](int x, int) { return x % 96 == 12; });
     EXPECT_LT(across, 0.03f);
 }
 
 TEST(SeamVisibility, AStepOnAPlainWallIsSeen) {
     const auto wall = [](int x, int) { return x < 128 ? 0.5f : 0.56f; };
-    const float step = share(picture(wall), [](int x, int) { return x == 127; });
+    const float step = share(seamed_picture(wall), [](int x, int) { return x == 127; });
     EXPECT_GT(step, 0.95f);
     const auto faint = [](int x, int) { return x < 128 ? 0.5f : 0.505f; };
-    EXPECT_LT(share(picture(faint), [](int x, int) { return x == 127; }), 0.01f)
+    EXPECT_LT(share(seamed_picture(faint), [](int x, int) { return x == 127; }), 0.01f)
         << "below what is noticed";
 }
 
 TEST(SeamVisibility, HalfOfASeamCountsHalf) {
     const auto wall = [](int x, int y) { return x < 128 || y < 96 ? 0.5f : 0.6f; };
-    EXPECT_NEAR(share(picture(wall), [](int x, int) { return x == 127; }), 0.5f, 0.05f);
+    EXPECT_NEAR(share(seamed_picture(wall), [](int x, int) { return x == 127; }), 0.5f, 0.05f);
 }
 
 TEST(SeamVisibility, WithoutSeamsOrTextureNothingIsSaid) {
-    EXPECT_LT(share(picture(tiles), [](int, int) { return false; }), 0);
-    EXPECT_LT(share(picture(tiles), [](int, int) { return true; }), 0);
+    EXPECT_LT(share(seamed_picture(tiles), [](int, int) { return false; }), 0);
+    EXPECT_LT(share(seamed_picture(tiles), [](int, int) { return true; }), 0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "app/preview/seam_visibility.h"
+#include "engine/metrics/seam_visibility.h"
 
 #include <algorithm>
 #include <array>
@@ -14,14 +14,14 @@ namespace {
 constexpr int kBlock_px = 32;
 // Steps are counted in steps of a just noticeable one: about 1 % of white, or 2 % of the luma.
 constexpr float kJnd = 0.01f, kJndOfLuma = 0.02f;
-constexpr int kBins = 128;
+constexpr int kSteepBins = 128;
 constexpr float kBin = 0.5f;  // in just noticeable steps
 // What exceeds this share of the texture around a seam stands out.
 constexpr double kNearlyAll = 0.98;
 
-using Histogram = std::array<std::int32_t, kBins>;
+using Histogram = std::array<std::int32_t, kSteepBins>;
 
-float steepness(const ImageF3& pixels, int x, int y) {
+float steps_at(const ImageF3& pixels, int x, int y) {
     const float here = luma_709(pixels.pixel(x, y));
     const float right = luma_709(pixels.pixel(x + 1, y)), below = luma_709(pixels.pixel(x, y + 1));
     const float step = std::max(std::abs(right - here), std::abs(below - here));
@@ -29,7 +29,7 @@ float steepness(const ImageF3& pixels, int x, int y) {
 }
 
 int bin_of(float steps) {
-    return std::clamp(static_cast<int>(steps / kBin), 0, kBins - 1);
+    return std::clamp(static_cast<int>(steps / kBin), 0, kSteepBins - 1);
 }
 
 // By blocks, of the texture beside the seams.
@@ -44,18 +44,18 @@ struct Surroundings {
         for (int y = std::max(0, row - 1); y <= std::min(rows - 1, row + 1); ++y)
             for (int x = std::max(0, column - 1); x <= std::min(columns - 1, column + 1); ++x) {
                 const Histogram& block = blocks[static_cast<std::size_t>(y * columns + x)];
-                for (std::size_t k = 0; k < kBins; ++k) {
+                for (std::size_t k = 0; k < kSteepBins; ++k) {
                     sum[k] += block[k];
                     count += block[k];
                 }
             }
         constexpr std::int64_t kLeast = 64;
-        if (count < kLeast) return kBins;
+        if (count < kLeast) return kSteepBins;
         const auto most = static_cast<std::int64_t>(kNearlyAll * static_cast<double>(count));
         std::int64_t below = 0;
-        for (int k = 0; k < kBins; ++k)
+        for (int k = 0; k < kSteepBins; ++k)
             if ((below += sum[static_cast<std::size_t>(k)]) >= most) return k;
-        return kBins - 1;
+        return kSteepBins - 1;
     }
 };
 
@@ -80,8 +80,8 @@ float seam_visibility(const ImageF3& pixels, const Matte& touched, const ImageF1
     };
     visit_covered(pixels, touched, [&](int x, int y) {
         if (seam.at(x, y) <= 0.5f)
-            ++around.blocks[block_of(x, y)]
-                           [static_cast<std::size_t>(bin_of(steepness(pixels, x, y)))];
+            ++around
+                  .blocks[block_of(x, y)][static_cast<std::size_t>(bin_of(steps_at(pixels, x, y)))];
     });
     std::vector<int> limits;
     for (int row = 0; row < around.rows; ++row)
@@ -94,7 +94,7 @@ float seam_visibility(const ImageF3& pixels, const Matte& touched, const ImageF1
         const int on = seam.at(x, y) > 0.5f ? 1 : 0;
         const int limit = std::max(kNoticed, limits[block_of(x, y)]);
         ++count[on];
-        stands_out[on] += bin_of(steepness(pixels, x, y)) > limit;
+        stands_out[on] += bin_of(steps_at(pixels, x, y)) > limit;
     });
     constexpr std::int64_t kLeast = 16;
     if (count[0] < kLeast || count[1] < kLeast) return -1;
