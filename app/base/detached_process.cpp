@@ -2,21 +2,15 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
-
-#include <chrono>
-#include <optional>
-#include <thread>
-
-#include "engine/core/input_file.h"
 
 extern char** environ;
 
 namespace weft {
 
-pid_t start_detached(const std::vector<std::string>& arguments, const std::string& variable,
-                     const std::string& output, const std::string& errors) {
+pid_t start_detached(const std::vector<std::string>& arguments,
+                     const std::vector<std::string>& variables, const std::string& output,
+                     const std::string& errors) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     constexpr int kNew = O_WRONLY | O_CREAT | O_TRUNC;
@@ -33,7 +27,8 @@ pid_t start_detached(const std::vector<std::string>& arguments, const std::strin
     argv.push_back(nullptr);
     for (char** entry = environ; *entry; ++entry)
         environment.push_back(*entry);
-    environment.push_back(const_cast<char*>(variable.c_str()));
+    for (const std::string& variable : variables)
+        environment.push_back(const_cast<char*>(variable.c_str()));
     environment.push_back(nullptr);
     pid_t pid = -1;
     if (posix_spawn(&pid, argv[0], &actions, &attributes, argv.data(), environment.data()) != 0)
@@ -43,31 +38,24 @@ pid_t start_detached(const std::vector<std::string>& arguments, const std::strin
     return pid;
 }
 
-int follow_detached(pid_t pid, const std::string& output,
-                    const std::function<void(const std::string&)>& line) {
-    std::optional<InputFile> file;
-    std::string pending;
-    std::uint64_t offset = 0;
-    for (int status = 0;;) {
-        const bool over = waitpid(pid, &status, WNOHANG) == pid;
-        if (!file) {
-            if (auto opened = InputFile::open(output)) file = std::move(*opened);
-        }
-        char buffer[4096];
-        while (file) {
-            const std::size_t got = file->read_at(offset, buffer, sizeof buffer).value_or(0);
-            if (got == 0) break;
-            pending.append(buffer, got);
-            offset += got;
-        }
-        for (std::size_t end = pending.find('\n'); end != std::string::npos;
-             end = pending.find('\n')) {
-            line(pending.substr(0, end));
-            pending.erase(0, end + 1);
-        }
-        if (over) return status;
-        std::this_thread::sleep_for(std::chrono::milliseconds(80));
+std::vector<std::string> WrittenLines::next() {
+    if (!file_) {
+        if (auto opened = InputFile::open(path_)) file_ = std::move(*opened);
     }
+    char buffer[4096];
+    while (file_) {
+        const std::size_t got = file_->read_at(offset_, buffer, sizeof buffer).value_or(0);
+        if (got == 0) break;
+        pending_.append(buffer, got);
+        offset_ += got;
+    }
+    std::vector<std::string> out;
+    for (std::size_t end = pending_.find('\n'); end != std::string::npos;
+         end = pending_.find('\n')) {
+        out.push_back(pending_.substr(0, end));
+        pending_.erase(0, end + 1);
+    }
+    return out;
 }
 
 }  // namespace weft

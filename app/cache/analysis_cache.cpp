@@ -22,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kLockName = "analysing.lock";
+
 // Creates the folders of the regions below `root` and marks them as just used.
 Status make_folders(const fs::path& root, const std::set<std::string>& names) {
     std::error_code error;
@@ -150,6 +152,32 @@ class DiskStore final : public AnalysisCache {
                 return move_folder(from, to);
             });
         }
+    }
+
+    // In one order everywhere, so that no two wait for each other.
+    [[nodiscard]] std::optional<AnalysisClaim> try_claim() const override {
+        const std::shared_lock names(names_);
+        AnalysisClaim out;
+        for (const std::string& name : folder_names(keys_)) {
+            const std::string path = (root_ / name / kLockName).string();
+            // It may be there already, or nowhere: then nobody is excluded.
+            static_cast<void>(write_file_atomically(path, std::string_view(), WriteRule{}));
+            auto lock = FileLock::take(path, std::chrono::milliseconds(0));
+            if (!lock) return std::nullopt;
+            out.push_back(std::move(*lock));
+        }
+        return out;
+    }
+
+    [[nodiscard]] fs::file_time_type last_change() const override {
+        const std::shared_lock names(names_);
+        fs::file_time_type last = fs::file_time_type::min();
+        std::error_code error;
+        for (const std::string& name : folder_names(keys_)) {
+            const auto changed = fs::last_write_time(root_ / name, error);
+            if (!error) last = std::max(last, changed);
+        }
+        return last;
     }
 
     [[nodiscard]] std::vector<std::string> remarks() const override {

@@ -1,11 +1,14 @@
 #pragma once
 // The analysis on disk, keyed by content.
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/shot/shot.h"
+#include "engine/core/file_lock.h"
 #include "engine/pipeline/analysis_store.h"
 
 namespace weft {
@@ -18,6 +21,9 @@ struct AnalysisCacheOptions {
     std::uint64_t limit_bytes = 16ull << 30;
 };
 
+/// One lock for each region's folder; empty: nobody is kept from anything.
+using AnalysisClaim = std::vector<FileLock>;
+
 /// The analysis on disk.
 class AnalysisCache : public AnalysisStore {
   public:
@@ -27,6 +33,11 @@ class AnalysisCache : public AnalysisStore {
     /// names of the matte files. `shot`: as in open_analysis_cache(). Regions with unwritten mattes
     /// are unchanged. Thread-safe.
     virtual void mattes_written(const Shot& shot) = 0;
+    /// Keeps other processes from analysing the same regions; see claim_analysis(). Nothing: one of
+    /// them does so now. Never waits. Thread-safe.
+    [[nodiscard]] virtual std::optional<AnalysisClaim> try_claim() const = 0;
+    /// When something of the regions was last stored, by any process. Thread-safe.
+    [[nodiscard]] virtual std::filesystem::file_time_type last_change() const = 0;
 };
 
 /// The cache folder: `folder`, or the default for an empty one; empty if there is none.

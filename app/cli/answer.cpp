@@ -1,10 +1,13 @@
 #include "app/cli/answer.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <regex>
 
+#include "app/base/job_messages.h"
 #include "app/cli/console.h"
 #include "app/project/project.h"
+#include "engine/media/atomic_file.h"
 
 namespace weft {
 namespace {
@@ -60,17 +63,34 @@ std::string field_of(const Error& error) {
     return {};
 }
 
+Json answer_json(const CommandResult& result, const Error* error, int exit) {
+    Json out = result ? result->json : Json::object();
+    if (error) out.update(error_json(*error));
+    out["exit_code"] = exit;
+    return out;
+}
+
+// Paths may contain bytes that are not UTF-8; they are replaced.
+std::string text_of(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// A file that cannot be written is not this command's failure: who reads it takes the process for
+// one that could not say anything.
+void leave_answer(const Json& answer) {
+    if (const char* file = std::getenv(kAnswerFileVariable); file && *file)
+        static_cast<void>(write_file_atomically(file, text_of(answer), WriteRule::own()));
+}
+
 }  // namespace
 
 int conclude(const CommandResult& result) {
     const Error* error = !result ? &result.error() : result->error ? &*result->error : nullptr;
     const int exit = error ? exit_code(error->code) : result->exit;
+    const Json answer = answer_json(result, error, exit);
+    leave_answer(answer);
     if (json_output()) {
-        Json out = result ? result->json : Json::object();
-        if (error) out.update(error_json(*error));
-        out["exit_code"] = exit;
-        // Paths may contain bytes that are not UTF-8; they are replaced.
-        print(stdout, out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+        print(stdout, text_of(answer));
     } else if (result) {
         print(stdout, result->text);
     }

@@ -3,53 +3,41 @@
 // side does not affect the other, and a render continues when the editor is closed.
 
 #include <cstdint>
-#include <map>
-#include <memory>
-#include <mutex>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "app/base/picture.h"
+#include "app/jobs/job_view.h"
+#include "app/jobs/job_worker.h"
 #include "app/project/project.h"
 #include "engine/core/error.h"
 
 namespace weft {
 
-enum class JobState : std::uint8_t { kWaiting, kRunning, kPaused, kDone, kCancelled, kFailed };
-
 struct RenderRequest {
-    Project project;    ///< With absolute paths.
-    std::string label;  ///< "Frames 1001-1048 to out/####.png"
+    Project project;           ///< With absolute paths.
+    std::string project_file;  ///< Where it is saved, absolute; empty: nowhere.
+    std::string label;         ///< "Frames 1001-1048 to out/####.png"
     std::vector<int> frames;
     bool overwrite = false, skip_existing = false;
     double estimated_s = 0;  ///< Estimated time, s; 0: not known.
     std::string backend = "auto";
 };
 
-struct JobView {
-    int id = 0;
-    JobState state = JobState::kWaiting;
-    std::string label, output, stage, error;
-    int done = 0, total = 0;  ///< Finished frames; frames of the analysis while `stage` says so.
-    int newest_frame = 0;     ///< 0: none yet.
-    bool has_frame = false;
-    double elapsed_s = 0, left_s = 0, frames_per_minute = 0;
-    double estimated_s = 0;  ///< As submitted; 0 after a pause or retry, when it no longer holds.
-    PicturePtr thumbnail;    ///< Thumbnail of the newest frame.
-    std::string log_path, movie;
-    std::string plate;  ///< Of its shot, absolute.
-};
-
-/// Runs one job at a time; the others wait in order. Thread-safe; does not block.
+/// Runs one job at a time of all processes that use the same folder; the others wait in order. The
+/// queue is in that folder: it has the jobs of earlier and of other processes, too. Thread-safe;
+/// does not block, except for submit() and the destructor, which finishes what was commanded.
 class ChildJobs {
   public:
-    /// `program`: the weft program. `folder`: for snapshots and logs; created if missing.
+    /// `program`: the weft program. `folder`: for records, snapshots and logs; created if missing.
     ChildJobs(std::string program, std::string folder);
     /// Does not stop running jobs; see cancel_all().
     ~ChildJobs();
+    ChildJobs(const ChildJobs&) = delete;
+    ChildJobs& operator=(const ChildJobs&) = delete;
 
-    /// Adds a job and returns its id. Errors: the snapshot cannot be written.
+    /// Adds a job and returns its id. Errors: the snapshot or the record cannot be written.
     [[nodiscard]] Expected<int> submit(const RenderRequest& request);
     void cancel(int id);
     void pause(int id);
@@ -58,8 +46,11 @@ class ChildJobs {
     void retry(int id);
     /// Removes a finished job from the list.
     void remove(int id);
+    /// Moves a job that waits before the one that waits before it (−1), or after the next (1).
+    void move(int id, int direction);
     void cancel_all();
 
+    /// By place: the jobs that wait are begun in this order.
     [[nodiscard]] std::vector<JobView> views() const;
     [[nodiscard]] bool busy() const;
     /// Increases with every change.
@@ -68,12 +59,13 @@ class ChildJobs {
     [[nodiscard]] std::string log_tail(int id, std::size_t most_bytes = 8192) const;
 
   private:
-    struct Job;
-    struct Shared;
-    static void run(const std::shared_ptr<Shared>& shared, const std::shared_ptr<Job>& job);
-    static void start_next(const std::shared_ptr<Shared>& shared);
+    /// Carries out `change` on the record of the job.
+    void command(int id, std::function<void(JobRecord&)> change);
+    void command_all(JobCommandFn command);
+    [[nodiscard]] std::string name_of(int id) const;
 
-    std::shared_ptr<Shared> shared_;
+    JobsShared shared_;
+    std::thread thread_;
 };
 
 }  // namespace weft

@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "engine/mask/edge_alpha.h"
+#include "engine/mask/signed_distance.h"
 #include "engine/motion/view_mat.h"
 
 namespace weft {
@@ -155,6 +157,61 @@ bool reaches_border(const cv::Mat& found) {
     return cv::countNonZero(found & border) > 0;
 }
 
+// The share of the outline that lies on edges of the picture; its borders count as such.
+double share_on_edges(const cv::Mat& found, const cv::Mat& colours) {
+    constexpr double kEdge = 12;  // of 255, between two pixels beside the outline
+    int outline = 0, on_edges = 0;
+    const auto look = [&](int x, int y, int dx, int dy) {
+        if (found.at<std::uint8_t>(y, x) == found.at<std::uint8_t>(y + dy, x + dx)) return;
+        ++outline;
+        const int x0 = std::max(0, x - dx), y0 = std::max(0, y - dy);
+        const int x1 = std::min(found.cols - 1, x + 2 * dx);
+        const int y1 = std::min(found.rows - 1, y + 2 * dy);
+        const cv::Vec3f a = colours.at<cv::Vec3b>(y0, x0), b = colours.at<cv::Vec3b>(y1, x1);
+        on_edges += cv::norm(a - b, cv::NORM_INF) > kEdge;
+    };
+    for (int y = 0; y + 1 < found.rows; ++y)
+        for (int x = 0; x + 1 < found.cols; ++x) {
+            look(x, y, 1, 0);
+            look(x, y, 0, 1);
+        }
+    return outline == 0 ? 1 : static_cast<double>(on_edges) / outline;
+}
+
+// How far lines act where the picture does not show that the surface goes further, px.
+int reach_of(const cv::Mat& keep) {
+    constexpr int kLeast_px = 24, kOfPicture = 32;
+    const cv::Rect box = cv::boundingRect(keep > 127);
+    return std::max({kLeast_px, std::max(keep.cols, keep.rows) / kOfPicture,
+                     std::max(box.width, box.height) / 2});
+}
+
+// With the edge that the same outline gets on the frames to which it is propagated.
+cv::Mat with_edge(const cv::Mat& colours, const cv::Mat& found) {
+    constexpr float kWidth_px = 1.5f;  // as boundary_refiner.cpp
+    const Size size{found.cols, found.rows};
+    ImageU8x3 picture(size.width, size.height);
+    Matte shape(size);
+    for (int y = 0; y < size.height; ++y) {
+        std::copy_n(colours.ptr<std::uint8_t>(y), 3 * size.width, picture.pixel(0, y));
+        for (int x = 0; x < size.width; ++x)
+            shape.at(x, y) = found.at<std::uint8_t>(y, x) > 127;
+    }
+    constexpr float kLimit_px = 8;
+    constexpr int kPasses = 2;  // a binary label's staircase becomes a line
+    const ImageF1 phi = smooth_distance(signed_distance(shape, kLimit_px), kPasses);
+    return as_mat(edge_alpha(picture, phi, kWidth_px)).clone();
+}
+
+// 255 within reach of the lines, falling to 0 over two pixels.
+cv::Mat within_reach(const cv::Mat& keep) {
+    cv::Mat distance, out;
+    cv::distanceTransform(keep <= 127, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    const double reach = reach_of(keep);
+    distance.convertTo(out, CV_8UC1, -127.5, 127.5 * (reach + 1));
+    return out;
+}
+
 cv::Rect box_around(const cv::Mat& marks) {
     cv::Rect box = cv::boundingRect(marks);
     const int margin = std::max(box.width, box.height) / 2 + 16;
@@ -191,6 +248,17 @@ Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep
     const cv::Mat fine = fine_cut(crop, coarse, background, foreground);
     cv::Mat full;
     cv::resize(fine, full, box.size(), 0, 0, cv::INTER_CUBIC);
+    full = with_edge(crop.colours, full);
+    // Without a line outside only the picture can say how far the surface goes: by its edges.
+    constexpr double kEnclosed = 0.75;
+    const bool told =
+        cv::countNonZero(crop.outside > 127) > 0 ||
+        share_on_edges(fine, scaled(crop.colours, scale_to(crop, kFinePx))) >= kEnclosed;
+    if (!told) {
+        const cv::Mat near = within_reach(crop.inside);
+        cv::min(full, near, full);
+        cv::max(full, cv::min(crop.before, 255 - near), full);
+    }
     Matte out = before;
     for (int y = 0; y < box.height; ++y)
         std::copy_n(full.ptr<std::uint8_t>(y), box.width, out.pixel(box.x, box.y + y));

@@ -9,7 +9,10 @@ namespace weft {
 /// and `drop` mark certain inside and outside (above 127). Computed on a crop around them, at up to
 /// 512 px; the rest of `before` is unchanged, and the matte found goes on into it without a step at
 /// the border of the crop. Where nothing was painted before, a surface that reaches the border is
-/// looked for in the whole picture.
+/// looked for in the whole picture. Without a line in
+/// `drop`, and where less than three quarters of its outline lie on edges of the picture, it is
+/// only taken within reach of the lines: half of their extent, a 32nd of the picture's longest
+/// side, 24 px, whichever is most.
 [[nodiscard]] Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
                                       const Matte& drop);
 

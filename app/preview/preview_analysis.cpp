@@ -1,15 +1,12 @@
 // The analysis thread of the preview.
 #include "app/base/background.h"
+#include "app/cache/analysis_claim.h"
 #include "app/preview/preview_impl.h"
 #include "app/preview/propagation_key.h"
 #include "engine/core/stopwatch.h"
 #include "engine/mask/plate_edge.h"
 #include "engine/pipeline/analyse.h"
-#include "engine/pipeline/focus_pass.h"
-#include "engine/pipeline/form_pass.h"
-#include "engine/pipeline/gloss_pass.h"
 #include "engine/pipeline/matte_pass.h"
-#include "engine/pipeline/surface_pass.h"
 
 namespace weft {
 namespace {
@@ -24,9 +21,7 @@ ShotPlan plan_for(const OpenedShot& opened, std::vector<int> frames) {
 
 int steps_to(const OpenedShot& opened, std::vector<int> frames) {
     const ShotPlan plan = plan_for(opened, std::move(frames));
-    return count_matte_steps(plan, *opened.store) + count_surface_steps(plan, *opened.store) +
-           count_form_steps(plan, *opened.store) + count_gloss_steps(plan, *opened.store) +
-           count_focus_steps(plan, *opened.store);
+    return static_cast<int>(count_analysis_steps(plan, *opened.store));
 }
 
 std::optional<int> stored_layer(const Region& region, int layer) {
@@ -143,11 +138,30 @@ void Preview::Impl::analyse_loop() {
     }
 }
 
+// A render makes the same analysis: its frames are taken as they come. Whether none is left.
+bool Preview::Impl::await_other(const OpenedPtr& work, const std::vector<int>& list, int total) {
+    const int left = steps_to(*work, list);
+    const auto shared = guarded.lock();
+    if (!shared->opened || shared->opened->analysis != work->analysis || left >= total)
+        return left == 0;
+    shared->shown.analysing = true;
+    shared->shown.done = total - left;
+    shared->shown.total = total;
+    ++shared->visits;
+    changed(*shared);
+    ++mattes;
+    signal(*shared);
+    return left == 0;
+}
+
 void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list, bool keep_walks,
                             const CancelToken& token) {
     ShotPlan plan = plan_for(*work, list);
     plan.walks = walks;
     plan.keep_walks = keep_walks;
+    const int total = steps_to(*work, list);
+    const auto claim = claim_analysis(*work->store, kEditorPatience, token,
+                                      [&] { return await_other(work, list, total); });
     const auto start = Clock::now();
     const auto progress = [&](const ProgressEvent& event) {
         const auto shared = guarded.lock();

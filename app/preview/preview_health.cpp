@@ -83,33 +83,6 @@ float mean_stretch(const LatticeField& ref_from_cur, const Matte& matte) {
     return count == 0 ? -1.0f : static_cast<float>(sum / static_cast<double>(count));
 }
 
-float seam_prominence(const RenderedFrame& frame) {
-    if (!frame.layers) return -1;
-    const ImageF3& pixels = frame.pixels;
-    double on = 0, off = 0;
-    std::int64_t on_count = 0, off_count = 0;
-    for (int y = 0; y + 1 < pixels.height(); y += 2) {
-        for (int x = 0; x + 1 < pixels.width(); ++x) {
-            if (frame.touched.at(x, y) < 255) continue;
-            const auto luma = [&](int px, int py) {
-                const float* p = pixels.pixel(px, py);
-                return luma_709(p);
-            };
-            const float here = luma(x, y);
-            const auto steep = static_cast<double>(std::abs(luma(x + 1, y) - here) +
-                                                   std::abs(luma(x, y + 1) - here));
-            const bool seam = frame.layers->seam.at(x, y) > 0.5f;
-            (seam ? on : off) += steep;
-            ++(seam ? on_count : off_count);
-        }
-    }
-    constexpr std::int64_t kLeast = 16;
-    if (on_count < kLeast || off_count < kLeast) return -1;
-    const double beside = std::max(1e-6, off / static_cast<double>(off_count));
-    return static_cast<float>(
-        std::clamp(on / static_cast<double>(on_count) / beside - 1.0, 0.0, 1.0));
-}
-
 // Measures drift and stretch of the analysed frames, or of as many as a strip can show.
 void Preview::Impl::collect_health(const OpenedShot& work, const CancelToken& token) {
     const Shot& shot = *work.shot;

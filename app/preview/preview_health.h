@@ -4,7 +4,6 @@
 
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
-#include "engine/pipeline/render_frame.h"
 
 namespace weft {
 
@@ -21,10 +20,5 @@ namespace weft {
 /// Stretch or compression of the texture relative to the reference frame, whichever is larger: the
 /// mean over the matte. 1: none; below 0: the matte is empty.
 [[nodiscard]] float mean_stretch(const LatticeField& ref_from_cur, const Matte& matte);
-
-/// Visibility of plane seams in a rendered frame with layers: how much steeper the picture is at
-/// seams than elsewhere in the patch, from 0 (no more) to 1 (twice as steep). Below 0 if no seam is
-/// visible.
-[[nodiscard]] float seam_prominence(const RenderedFrame& frame);
 
 }  // namespace weft

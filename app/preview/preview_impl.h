@@ -135,6 +135,7 @@ struct Preview::Impl {
 
     // ---- the analysis thread (preview_analysis.cpp) ----
     void analyse_loop();
+    [[nodiscard]] bool await_other(const OpenedPtr& work, const std::vector<int>& list, int total);
     void analyse(const OpenedPtr& opened, const std::vector<int>& frames, bool keep_walks,
                  const CancelToken& token);
     void carry_mattes_at(const OpenedShot& opened, int frame, const CancelToken& token);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/preview/preview_health.h"
 #include "engine/color/color_space.h"
+#include "engine/metrics/seam_visibility.h"
 #include "engine/pipeline/render_frame.h"
 
 namespace weft {
@@ -100,7 +100,7 @@ Expected<PreviewFrame> render_stages(const StageInputs& in, int frame, bool stag
     WEFT_TRY(lit, render_frame(in.source, plan, in.scenes, in.store, in.backend, frame));
     out.stages[static_cast<std::size_t>(Stage::kFinal)] = picture(lit.pixels);
     if (seam) {
-        *seam = seam_prominence(lit);
+        *seam = lit.layers ? seam_visibility(lit.pixels, lit.touched, lit.layers->seam) : -1;
         out.seams = std::make_shared<const SeamPoints>(seam_points(lit));
     }
     if (layer && lit.layers) {

@@ -10,6 +10,7 @@
 #include <map>
 #include <opencv2/core/utility.hpp>
 
+#include "app/cache/analysis_claim.h"
 #include "app/cache/stage_cache.h"
 #include "app/render/job_frames.h"
 #include "app/render/job_setup.h"
@@ -84,6 +85,8 @@ Status motion_stage(const JobRun& job) {
 
 Status analysis_stage(const JobRun& job) {
     if (job.nothing_to_render() || job.spec.stage == JobStage::kEncode) return {};
+    const auto claim =
+        claim_analysis(*job.store, job.plan, kRenderPatience, job.cancel, job.progress);
     return analyse_shot(*job.shot().source, job.plan, *job.store, job.cancel, job.progress,
                         job.setup.backend.get());
 }

@@ -363,7 +363,16 @@ struct SubmitJob {
     double estimated_s = 0;  ///< As RenderRequest's.
     bool operator==(const SubmitJob&) const = default;
 };
-enum class JobCommand : std::uint8_t { kCancel, kPause, kResume, kRetry, kRemove };
+/// kEarlier, kLater: before or after its neighbour of the jobs that wait.
+enum class JobCommand : std::uint8_t {
+    kCancel,
+    kPause,
+    kResume,
+    kRetry,
+    kRemove,
+    kEarlier,
+    kLater
+};
 struct CommandJob {
     int id = 0;
     JobCommand command = JobCommand::kCancel;

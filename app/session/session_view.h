@@ -43,6 +43,9 @@ struct PlateView {
     std::size_t cached_bytes = 0, budget_bytes = 0;
 };
 
+/// A quarter of the seams that shows is the worst on the scale.
+inline constexpr float kWorstSeams = 0.25f;
+
 /// Data of a frame for the timeline.
 struct FrameMarks {
     bool plate = false, result = false, failed = false;
@@ -51,7 +54,7 @@ struct FrameMarks {
     // Below 0: not known.
     float drift = -1;    ///< Appearance change since the reference frame, 0–1.
     float stretch = -1;  ///< Stretch or compression of the texture; 1: none.
-    float seam = -1;     ///< Visibility of seams, 0–1.
+    float seam = -1;     ///< Share of the seams that shows, as seam_visibility().
     /// Movement of seams on the texture since the previous frame, plate px.
     float seam_motion = -1;
     /// Mean change of a surface point since the previous frame, 8-bit steps, for the result and for

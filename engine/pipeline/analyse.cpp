@@ -8,13 +8,15 @@
 
 namespace weft {
 
+std::int64_t count_analysis_steps(const ShotPlan& plan, const AnalysisStore& store) {
+    return count_matte_steps(plan, store) + count_surface_steps(plan, store) +
+           count_form_steps(plan, store) + count_gloss_steps(plan, store) +
+           count_focus_steps(plan, store);
+}
+
 Status analyse_shot(const ShotSource& source, const ShotPlan& plan, AnalysisStore& store,
                     const CancelToken& cancel, const ProgressFn& progress, const Backend* backend) {
-    ProgressEvent event{"analyse", 0,
-                        count_matte_steps(plan, store) + count_surface_steps(plan, store) +
-                            count_form_steps(plan, store) + count_gloss_steps(plan, store) +
-                            count_focus_steps(plan, store),
-                        0, 0};
+    ProgressEvent event{"analyse", 0, count_analysis_steps(plan, store), 0, 0};
     const PassContext context{source, plan, cancel,
                               [&](int frame, double seconds) {
                                   ++event.done;

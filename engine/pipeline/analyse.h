@@ -5,6 +5,9 @@
 
 namespace weft {
 
+/// How many steps analyse_shot() would take now.
+[[nodiscard]] std::int64_t count_analysis_steps(const ShotPlan& plan, const AnalysisStore& store);
+
 /// Computes what is missing of a shot's analysis in the store: propagated mattes, coordinates,
 /// shading, form, focus. A frame's results depend only on the frames between it and its references
 /// and keyframes, never on which frames are requested, so different machines can analyse parts of a

@@ -97,7 +97,6 @@ const std::vector<SizeException> kLongFunctions{
      {{"app/base/folder_lister.cpp", "list_folder", 65},
       {"app/preview/preview_render.cpp", "Preview::Impl::open_shot_of", 65},
       {"app/preview/preview_flicker.cpp", "Preview::Impl::step_flicker", 70},
-      {"app/jobs/child_jobs.cpp", "ChildJobs::run", 95},
       {"engine/composite/focus_map.cpp", "fit_focus", 65},
       {"engine/composite/grain_meter.cpp", "GrainMeter::model", 65},
       {"engine/synthesis/direct_search.cpp", "DirectSearch::add_layer", 70},

@@ -65,6 +65,40 @@ TEST(ScribbleMatte, LinesOutsideTakeAway) {
     EXPECT_GT(found.at(80, 150), 127);
 }
 
+// A curtain that gets darker from left to right has no edge at which a surface could end.
+TEST(ScribbleMatte, AShortLineStaysNearWhereNoEdgeEndsTheSurface) {
+    ImageU8x3 curtain(kPlate, 0);
+    for (int y = 0; y < kPlate.height; ++y)
+        for (int x = 0; x < kPlate.width; ++x)
+            for (int k = 0; k < 3; ++k)
+                curtain.pixel(x, y)[k] =
+                    static_cast<std::uint8_t>(240 - x / 4 + (x * 7 + y * 13) % 5);
+    const Matte keep = filled({60, 130, 66, 165});
+    const Matte found = segment_scribbles(Matte(kPlate), curtain, keep, Matte(kPlate));
+    EXPECT_GT(found.at(63, 150), 200);
+    for (int y = 0; y < kPlate.height; ++y)
+        for (int x = 110; x < kPlate.width; ++x)
+            ASSERT_EQ(found.at(x, y), 0) << x << ' ' << y;
+}
+
+// As on the frames to which it is propagated: antialiased where the plate is.
+TEST(ScribbleMatte, ItsEdgeIsAsSoftAsThePlates) {
+    ImageU8x3 blended = plate();
+    constexpr int kEdge = 60;
+    for (int y = kSurface.y0; y < kSurface.y1; ++y)
+        for (int k = 0; k < 3; ++k)
+            blended.pixel(kEdge, y)[k] = static_cast<std::uint8_t>(
+                (blended.pixel(kEdge - 1, y)[k] + blended.pixel(kEdge + 1, y)[k]) / 2);
+    const Matte keep = filled({190, 140, 210, 146}), drop = filled({20, 140, 26, 160});
+    const Matte found = segment_scribbles(Matte(kPlate), blended, keep, drop);
+    int partly = 0;
+    for (int y = 60; y < 240; ++y)
+        partly += found.at(kEdge, y) > 80 && found.at(kEdge, y) < 175;
+    EXPECT_GT(partly, 150) << "of 180 pixels that are half covered";
+    EXPECT_EQ(found.at(kEdge - 4, 150), 0);
+    EXPECT_EQ(found.at(kEdge + 4, 150), 255);
+}
+
 TEST(ScribbleMatte, WithoutALineInsideNothingChanges) {
     const Matte before = filled({80, 40, 320, 260});
     EXPECT_EQ(segment_scribbles(before, plate(), Matte(kPlate), filled({20, 20, 26, 60})), before);

@@ -140,5 +140,34 @@ TEST_F(TakeBack, AnUndoneScribbleIsNoLongerCounted) {
     EXPECT_THAT(shell->state().scribbles.lines, SizeIs(2));
 }
 
+TEST_F(TakeBack, ScribblesStayOnTheirFrameUntilItsMatteIsPaintedOtherwise) {
+    go("Mask", Tool::kScribble);
+    view.history_position = 4;
+    draw(on(100, 60), on(120, 80));
+    have_matte();
+    view.frame = 1004;
+    robot->frames(2);
+    EXPECT_THAT(shell->state().scribbles.lines, IsEmpty()) << "it is of another frame";
+    view.frame = 1003;
+    robot->frames(2);
+    ASSERT_THAT(shell->state().scribbles.lines, SizeIs(1));
+    draw(on(60, 60), on(70, 70));
+    ASSERT_THAT(emitted<ScribbleSelect>(), SizeIs(2));
+    EXPECT_THAT(emitted<ScribbleSelect>()[1].keep, SizeIs(2)) << "and is refined";
+    have_matte();
+    ++view.history_position;  // a stroke of the brush
+    Leaf<Region>& region = view.project.regions[0];
+    MatteSource painted = *region->matte;
+    painted.keyframes[1003].path = "another.png";
+    region = region.with([&](Region& r) { r.matte = painted; });
+    robot->frames(2);
+    EXPECT_THAT(shell->state().scribbles.lines, IsEmpty());
+    view.frame = 1004;
+    robot->frames(2);
+    view.frame = 1003;
+    robot->frames(2);
+    EXPECT_THAT(shell->state().scribbles.lines, IsEmpty());
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -54,6 +54,9 @@ struct Ctx {
     /// Records the last ImGui item under a name.
     void note(std::string_view name, bool enabled = true);
     void note(std::string_view name, ImVec2 min, ImVec2 max, bool enabled = true);
+
+  private:
+    void mark_pointed(std::string_view name, ImVec2 min, ImVec2 max);
 };
 
 }  // namespace weft

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/project/key_rows.h"
@@ -96,11 +97,18 @@ struct Scribble {
     int step = 0;
     bool settled = false;
 };
-/// Scribbles; they belong to one frame of one region.
+/// The scribbles of one frame of one region, and those of others, until their mattes are painted
+/// otherwise.
 struct ScribbleState {
     int frame = 0;
     RegionId region = 0;
     std::vector<Scribble> lines;
+    std::string matte;  ///< What is painted there since the last of them.
+    struct Kept {
+        std::vector<Scribble> lines;
+        std::string matte;
+    };
+    std::map<std::pair<RegionId, int>, Kept> kept;
     bool drawing = false;
 };
 
@@ -269,6 +277,16 @@ struct LeaveFor {
     std::string path;  ///< Of kPath.
 };
 
+/// A control that a message is about: it is marked, and brought into view.
+struct PointedSetting {
+    std::string section, name;  ///< Empty: of any section; none.
+    double until_s = 0;         ///< Of SessionView::now_s.
+    bool found = false;         ///< It was drawn since.
+    ImGuiID found_in = 0;       ///< The section that is opened for it; 0: none.
+    std::string in_section;     ///< The one being drawn,
+    ImGuiID in_section_id = 0;  ///< its id.
+};
+
 struct UiState {
     std::uint64_t document = 0;  ///< SessionView::document that the rest belongs to.
     Workspace workspace = Workspace::kMask;
@@ -335,6 +353,7 @@ struct UiState {
     int open_log = 0;                ///< Job whose log is open.
     bool missing_dismissed = false;  ///< The question about missing files was answered.
     std::string region_dragged;
+    PointedSetting pointed;
     std::string status;  ///< Status bar text for the item under the mouse.
     /// Path of the mouse since the last frame while the left button was down; empty if unknown,
     /// then only MousePos is available.

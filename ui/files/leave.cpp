@@ -10,6 +10,11 @@ namespace weft::ui {
 
 namespace {
 
+// Not one of another shot, whose window is another one.
+bool own(const Ctx& c, const JobView& job) {
+    return job.mine || job.plate == c.view.plate.path;
+}
+
 void leave_now(Ctx& c, const LeaveFor& what) {
     switch (what.kind) {
         case LeaveFor::Kind::kQuit:
@@ -59,8 +64,8 @@ void leave_question(Ctx& c) {
     }
     if (!c.view.modified && c.state.leave_then.kind == LeaveFor::Kind::kQuit) {
         const bool rendering =
-            std::any_of(c.view.jobs.begin(), c.view.jobs.end(), [](const JobView& j) {
-                return j.state == JobState::kRunning || j.state == JobState::kPaused;
+            std::any_of(c.view.jobs.begin(), c.view.jobs.end(), [&](const JobView& j) {
+                return own(c, j) && (j.state == JobState::kRunning || j.state == JobState::kPaused);
             });
         if (!rendering) {
             c.state.leave_asked = false;
@@ -95,7 +100,7 @@ void leave_question(Ctx& c) {
         ImGui::SameLine();
         if (button(c, "Cancel render", {.look = Look::kDanger})) {
             for (const JobView& job : c.view.jobs)
-                c.emit(CommandJob{job.id, JobCommand::kCancel});
+                if (own(c, job)) c.emit(CommandJob{job.id, JobCommand::kCancel});
             go();
         }
     }

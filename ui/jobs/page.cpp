@@ -6,6 +6,7 @@
 #include "ui/base/icons.h"
 #include "ui/jobs/folder_of.h"
 #include "ui/jobs/jobs.h"
+#include "ui/jobs/problem.h"
 #include "ui/jobs/render_card.h"
 #include "ui/widgets/widgets.h"
 
@@ -50,6 +51,11 @@ ImU32 state_color(const Theme& t, JobState state) {
 void job_buttons(Ctx& c, const JobView& job, ImVec2 right_top) {
     const Theme& t = c.theme;
     std::vector<std::pair<const char*, const char*>> shown;  // icon, name
+    if (job.problem.known() && shows(c, job)) shown.emplace_back(icons::kTarget, kShowProblem);
+    if (job.state == JobState::kWaiting) {
+        shown.emplace_back(icons::kChevronUp, "Earlier");
+        shown.emplace_back(icons::kChevronDown, "Later");
+    }
     const bool over = job.state == JobState::kDone || job.state == JobState::kFailed ||
                       job.state == JobState::kCancelled;
     if (job.state == JobState::kRunning) shown.emplace_back(icons::kPause, "Pause");
@@ -70,6 +76,9 @@ void job_buttons(Ctx& c, const JobView& job, ImVec2 right_top) {
         const bool other_shot = what == "Review" && job.plate != c.view.plate.path;
         if (icon_button(c, icon, other_shot ? "Review (open its shot first)" : name,
                         what == "Log" && c.state.open_log == job.id, nullptr, !other_shot)) {
+            if (what == kShowProblem) show_problem(c, job.problem);
+            if (what == "Earlier") c.emit(CommandJob{job.id, JobCommand::kEarlier});
+            if (what == "Later") c.emit(CommandJob{job.id, JobCommand::kLater});
             if (what == "Pause") c.emit(CommandJob{job.id, JobCommand::kPause});
             if (what == "Resume") c.emit(CommandJob{job.id, JobCommand::kResume});
             if (what == "Cancel") c.emit(CommandJob{job.id, JobCommand::kCancel});
@@ -108,8 +117,8 @@ void job_row(Ctx& c, const JobView& job) {
             list.AddImage(id, a, {a.x + iw, a.y + ih});
         }
     const float x = thumb_max.x + t.px(14), right = at.x + w - t.px(10);
-    text_in(list, t.strong, {x, at.y + t.px(10)}, {right - t.px(150), at.y + t.px(28)}, t.text,
-            fitted(job.label, right - t.px(170) - x).c_str(), 0);
+    text_in(list, t.strong, {x, at.y + t.px(10)}, {right - t.px(180), at.y + t.px(28)}, t.text,
+            fitted(job.label, right - t.px(200) - x).c_str(), 0);
     ImGui::PushFont(t.small);
     text_in(list, t.small, {x, at.y + t.px(29)}, {right, at.y + t.px(45)}, t.quiet,
             fitted(job.output, right - x, true).c_str(), 0);
@@ -122,6 +131,8 @@ void job_row(Ctx& c, const JobView& job) {
                            state_color(t, job.state), t.px(3));
     std::string line = state_name(job.state);
     if (job.state == JobState::kRunning && job.stage == "analyse") line = "Analysing";
+    if (job.state == JobState::kRunning && job.stage == "wait")
+        line = "Taking the editor's analysis";
     if (job.state == JobState::kRunning && job.stage.empty()) line = "Starting";
     if (!job.error.empty()) {
         line += ". " + job.error;
@@ -155,6 +166,23 @@ void job_row(Ctx& c, const JobView& job) {
     ImGui::PopID();
 }
 
+// What failed needs the artist first; then what is being done, and what waits in its order.
+std::vector<const JobView*> in_order(const std::vector<JobView>& jobs) {
+    std::vector<const JobView*> out;
+    const auto add = [&](const JobView& job, std::initializer_list<JobState> states) {
+        if (std::find(states.begin(), states.end(), job.state) != states.end()) out.push_back(&job);
+    };
+    for (auto job = jobs.rbegin(); job != jobs.rend(); ++job)
+        add(*job, {JobState::kFailed});
+    for (const JobView& job : jobs)
+        add(job, {JobState::kRunning, JobState::kPaused});
+    for (const JobView& job : jobs)
+        add(job, {JobState::kWaiting});
+    for (auto job = jobs.rbegin(); job != jobs.rend(); ++job)
+        add(*job, {JobState::kDone, JobState::kCancelled});
+    return out;
+}
+
 }  // namespace
 
 void jobs_page(Ctx& c, ImVec2 size) {
@@ -174,7 +202,7 @@ void jobs_page(Ctx& c, ImVec2 size) {
                     "Set up a render on the left. It runs in the background: you can keep working "
                     "or close the window.");
     }
-    for (auto job = c.view.jobs.rbegin(); job != c.view.jobs.rend(); ++job)
+    for (const JobView* job : in_order(c.view.jobs))
         job_row(c, *job);
     end_panel(c);
 }

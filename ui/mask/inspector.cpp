@@ -171,7 +171,7 @@ void overlay_section(Ctx& c, const Region& region) {
     for (int k = 1; k <= kColors; ++k) {
         if (k > 1) ImGui::SameLine(0, t.px(6));
         ImGui::PushID(k);
-        const bool pressed = ImGui::InvisibleButton("##color", {t.px(26), t.px(22)});
+        const bool pressed = ImGui::InvisibleButton("##color", {t.px(26), t.px(24)});
         ImGui::PopID();
         c.note("Colour " + std::to_string(k));
         const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
@@ -329,7 +329,7 @@ void mask_inspector(Ctx& c) {
                         .enabled = !s.lines.empty(),
                         .tip = "The matte stays as it is. Esc",
                         .width = -1}))
-                c.state.scribbles = {};
+                c.state.scribbles.lines.clear();
         } else if (c.state.tool == Tool::kLasso) {
             quiet(c, "Draw around the surface; Ctrl subtracts");
         } else {

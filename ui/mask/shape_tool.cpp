@@ -165,13 +165,53 @@ void take_undone_away(ScribbleState& s, const SessionView& view) {
     });
 }
 
+// What is painted on the frame: the files that say so.
+std::string painted_here(const SessionView& view) {
+    const MatteSource source = view.painted_source();
+    std::string out;
+    if (const auto key = source.keyframes.find(view.frame); key != source.keyframes.end())
+        out = key->second.path;
+    if (const auto part = source.confirmed.find(view.frame); part != source.confirmed.end())
+        out += "\n" + part->second.path;
+    return out;
+}
+
+void forget_scribbles(ScribbleState& s) {
+    s.lines.clear();
+    s.kept.erase({s.region, s.frame});
+}
+
+// Lines of before would say something of a matte that is another one now.
+void take_painted_over_away(ScribbleState& s, const SessionView& view) {
+    if (s.lines.empty() || view.matte_busy) return;
+    const std::string now = painted_here(view);
+    // Its own steps, and the way back to them, change what is painted, too.
+    const int position = view.history_position;
+    if (position <= s.lines.back().step) s.matte = now;
+    if (s.matte != now) forget_scribbles(s);
+}
+
+// Scribbles belong to one frame of one region, and wait there.
+void go_to_scribbles(ScribbleState& s, const SessionView& view) {
+    if (s.frame == view.frame && s.region == view.selected) return;
+    if (s.lines.empty())
+        s.kept.erase({s.region, s.frame});
+    else
+        s.kept[{s.region, s.frame}] = {s.lines, s.matte};
+    s.frame = view.frame;
+    s.region = view.selected;
+    s.drawing = false;
+    const auto kept = s.kept.find({s.region, s.frame});
+    const bool any = kept != s.kept.end();
+    s.lines = any ? kept->second.lines : std::vector<Scribble>();
+    s.matte = any ? kept->second.matte : std::string();
+}
+
 }  // namespace
 
 void scribble_tool(Ctx& c, const ViewMap& map, bool active) {
     ScribbleState& s = c.state.scribbles;
-    // Scribbles belong to one frame of one region.
-    if (s.frame != c.view.frame || s.region != c.view.selected)
-        s = {c.view.frame, c.view.selected, {}, false};
+    go_to_scribbles(s, c.view);
     if (active && ImGui::IsMouseClicked(0)) {
         s.drawing = true;
         // The one before is a step of its own, which may still be on its way.
@@ -186,9 +226,10 @@ void scribble_tool(Ctx& c, const ViewMap& map, bool active) {
         }
     } else {
         take_undone_away(s, c.view);
+        take_painted_over_away(s, c.view);
     }
     if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(256)) {
-        s.lines.clear();
+        forget_scribbles(s);
         s.drawing = false;
     }
     for (const Scribble& one : s.lines)

@@ -12,7 +12,7 @@ namespace {
 // A keyframe button: hollow without animation, filled on a keyframe.
 bool key_button(Ctx& c, const char* name, bool here, bool anywhere) {
     const Theme& t = c.theme;
-    const float side = t.px(20);
+    const float side = t.px(24);
     ImGui::PushID(name);
     const bool pressed = ImGui::InvisibleButton("##key", {side, side});
     ImGui::PopID();
@@ -53,7 +53,7 @@ void keyed_control(Ctx& c, const Owner& owner, const Parameter<Owner>& info,
     const bool here = keys.has(c.view.frame);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float label_w = std::floor(ImGui::GetContentRegionAvail().x * 0.38f);
-    ImGui::SetCursorScreenPos({at.x + label_w - t.px(24), at.y + t.px(3)});
+    ImGui::SetCursorScreenPos({at.x + label_w - t.px(26), at.y + t.px(1)});
     const std::string name = parameter_name(info, label);
     if (key_button(c, ((here ? "Unkey " : "Key ") + name).c_str(), here, !keys.empty())) {
         if (here)

@@ -82,7 +82,7 @@ std::vector<Heat> heats_of(const Ctx& c) {
          "How much more the result changes from frame to frame than the plate, or than its "
          "texture would if it moved unchanged",
          {}},
-        {"Seams", "How much steeper the picture is at seams than beside them", {}},
+        {"Seams", "How much of the seams shows, and is not hidden by the texture's own edges", {}},
         {"Drift", "How different the surface looks from its reference frame", {}},
         {"Matte", "How far the matte's edge departs from the picture's motion", {}},
         {"Pops",
@@ -94,7 +94,7 @@ std::vector<Heat> heats_of(const Ctx& c) {
     constexpr float kWorstPop = 2;
     for (const FrameMarks& mark : c.view.marks) {
         out[0].values.push_back(flicker_heat(mark.flicker, mark.flicker_plate, mark.flicker_floor));
-        out[1].values.push_back(mark.seam);
+        out[1].values.push_back(mark.seam / kWorstSeams);
         out[2].values.push_back(mark.drift);
         out[3].values.push_back(mark.chatter / kWorstChatter_px);
         out[4].values.push_back(mark.pop / kWorstPop);
@@ -167,7 +167,7 @@ std::vector<Worst> worst_of(const Ctx& c, int by) {
                                                    : ", at best " + number(mark.flicker_floor, 2))};
             case 1: {
                 if (mark.seam < 0) return std::nullopt;
-                std::string text = number(100 * mark.seam, 0) + "% steeper";
+                std::string text = number(100 * mark.seam, 0) + "% of them shows";
                 if (mark.seam_motion >= 0) text += ", moved " + number(mark.seam_motion, 1) + " px";
                 return Worst{0, mark.seam, text};
             }

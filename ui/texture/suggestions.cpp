@@ -1,10 +1,12 @@
 // Suggestions for a region, or for all regions, with reasons.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "ui/base/icons.h"
 #include "ui/texture/parts.h"
 #include "ui/widgets/widgets.h"
+#include "ui/widgets/wrap.h"
 
 namespace weft::ui {
 
@@ -48,13 +50,31 @@ void suggestion_heading(Ctx& c, const std::string& text) {
     tooltip(c, "Suggests one texture for each region, chosen to match");
 }
 
+constexpr int kReasonLines = 3;
+constexpr float kReasonLine_px = 15;
+
+// A reason in lines of the present font, the last of them shortened if there are more.
+std::vector<std::string> reason_lines(const std::string& reason, float width) {
+    std::istringstream wrapped(wrapped_at_words(reason, width, [](std::string_view text) {
+        return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
+    }));
+    std::vector<std::string> out;
+    for (std::string line; std::getline(wrapped, line);) {
+        if (out.size() < kReasonLines)
+            out.push_back(line);
+        else
+            out.back() = fitted(out.back() + " " + line, width);
+    }
+    return out;
+}
+
 // One suggestion: the current frame with the texture on it, and the reason.
 void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, ImVec2 at,
                 ImVec2 size) {
     const Theme& t = c.theme;
     ImGui::SetCursorScreenPos(at);
     ImGui::PushID(card.path.c_str());
-    const float h = size.y + t.px(38);
+    const float h = size.y + t.px(22 + kReasonLines * kReasonLine_px);
     if (ImGui::InvisibleButton("##suggestion", {size.x, h})) c.state.drawer.picked = card.path;
     c.note(card.name);
     const bool hovered = ImGui::IsItemHovered();
@@ -97,8 +117,12 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
     ImGui::PushFont(t.small);
     text_in(list, t.small, {at.x, max.y + t.px(2)}, {max.x, max.y + t.px(19)}, t.text,
             fitted(card.name, size.x).c_str(), 0);
-    text_in(list, t.small, {at.x, max.y + t.px(18)}, {max.x, max.y + t.px(36)}, t.quiet,
-            fitted(why.reason, size.x).c_str(), 0);
+    float y = max.y + t.px(18);
+    for (const std::string& line : reason_lines(why.reason, size.x)) {
+        text_in(list, t.small, {at.x, y}, {max.x, y + t.px(kReasonLine_px)}, t.quiet, line.c_str(),
+                0);
+        y += t.px(kReasonLine_px);
+    }
     ImGui::PopFont();
 }
 
@@ -266,7 +290,7 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
         c.state.strip_textures = paths;
         c.emit(ShowStrip{StripKind::kSuggested, paths});
     }
-    ImGui::SetCursorScreenPos({at.x, at.y + h + t.px(44)});
+    ImGui::SetCursorScreenPos({at.x, at.y + h + t.px(28 + kReasonLines * kReasonLine_px)});
     ImGui::Dummy({0, 0});
 }
 

@@ -186,7 +186,7 @@ void tracks(Ctx& c, ImDrawList& list, const FrameScale& scale, float top, float 
         if (any) strip_y -= strip_h + t.px(1);
     };
     strip([](const FrameMarks& m) { return m.drift; });
-    strip([](const FrameMarks& m) { return m.seam; });
+    strip([](const FrameMarks& m) { return m.seam / kWorstSeams; });
     strip([](const FrameMarks& m) {
         return flicker_heat(m.flicker, m.flicker_plate, m.flicker_floor);
     });

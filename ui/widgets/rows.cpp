@@ -283,7 +283,16 @@ bool section(Ctx& c, const char* title, bool open_at_first) {
     ImGui::PushID(title);
     const ImGuiID id = ImGui::GetID("##open");
     ImGuiStorage* storage = ImGui::GetStateStorage();
-    bool open = storage->GetBool(id, open_at_first);
+    PointedSetting& pointed = c.state.pointed;
+    pointed.in_section = title;
+    pointed.in_section_id = id;
+    if (pointed.found_in == id) {
+        storage->SetBool(id, true);
+        pointed.found_in = 0;
+    }
+    // What is looked for may be in any of them.
+    const bool looking = !pointed.name.empty() && !pointed.found;
+    bool open = storage->GetBool(id, open_at_first) || looking;
     const float width = ImGui::GetContentRegionAvail().x;
     if (ImGui::InvisibleButton("##section", {width, t.px(30)})) {
         open = !open;

@@ -337,12 +337,12 @@ bool chip(Ctx& c, const char* label, bool active) {
     const std::string text = visible(label);
     const float width =
         t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text.c_str()).x + t.px(18);
-    const bool pressed = ImGui::InvisibleButton(label, {width, t.px(22)});
+    const bool pressed = ImGui::InvisibleButton(label, {width, t.px(24)});
     c.note(text);
     const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(min, max, active ? faded(t.accent, 0.35f) : t.raised, t.px(11));
-    if (ImGui::IsItemHovered()) list.AddRectFilled(min, max, t.hover, t.px(11));
+    list.AddRectFilled(min, max, active ? faded(t.accent, 0.35f) : t.raised, t.px(12));
+    if (ImGui::IsItemHovered()) list.AddRectFilled(min, max, t.hover, t.px(12));
     text_in(list, t.small, min, max, active ? t.text : t.quiet, text.c_str());
     return pressed;
 }

@@ -14,8 +14,10 @@ std::string absolute_or_empty(const std::string& path) {
 }  // namespace
 
 Expected<RenderRequest> render_request(const SubmitJob& action, Project project,
-                                       const std::vector<int>& all) {
+                                       const std::vector<int>& all,
+                                       const std::string& project_file) {
     RenderRequest request;
+    request.project_file = project_file;
     request.frames = all;
     if (!action.frames.empty()) {
         WEFT_TRY(frames, parse_frame_list(action.frames));
@@ -54,16 +56,27 @@ void JobDesk::command(const CommandJob& action) {
             return children_.retry(action.id);
         case JobCommand::kRemove:
             return children_.remove(action.id);
+        case JobCommand::kEarlier:
+            return children_.move(action.id, -1);
+        case JobCommand::kLater:
+            return children_.move(action.id, 1);
     }
 }
 
-std::vector<JobDesk::Ended> JobDesk::poll() {
+std::vector<JobDesk::Ended> JobDesk::poll(const std::string& project, const std::string& plate) {
     jobs_ = children_.views();
+    // Those of other shots are in the way while they are not over; then they are not this one's.
+    std::erase_if(jobs_, [&](const JobView& job) {
+        const bool of_shot =
+            (!project.empty() && job.project == project) || (!plate.empty() && job.plate == plate);
+        return !job.mine && !of_shot && is_over(job.state);
+    });
     std::vector<Ended> ended;
     for (const JobView& job : jobs_) {
-        JobState& known = known_[job.id];
-        if (known == job.state) continue;
-        known = job.state;
+        const auto [known, is_new] = known_.emplace(job.id, job.state);
+        if (!is_new && known->second == job.state) continue;
+        known->second = job.state;
+        if (job.earlier && is_new) continue;
         if (job.state == JobState::kDone || job.state == JobState::kFailed)
             ended.push_back({job.state == JobState::kFailed, job.label, job.error});
     }

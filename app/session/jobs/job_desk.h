@@ -10,10 +10,12 @@
 
 namespace weft {
 
-/// Builds the request of a SubmitJob. `project` has absolute paths; `all`: the plate's frames.
+/// Builds the request of a SubmitJob. `project` has absolute paths; `all`: the plate's frames;
+/// `project_file`: absolute, empty if it was never saved.
 /// Errors: Usage for an invalid frame list.
 [[nodiscard]] Expected<RenderRequest> render_request(const SubmitJob& action, Project project,
-                                                     const std::vector<int>& all);
+                                                     const std::vector<int>& all,
+                                                     const std::string& project_file = {});
 
 /// Belongs to one thread, except for submit().
 class JobDesk {
@@ -30,8 +32,10 @@ class JobDesk {
         bool failed = false;
         std::string label, error;
     };
-    /// Updates jobs() and returns the jobs that ended.
-    [[nodiscard]] std::vector<Ended> poll();
+    /// Updates jobs() and returns those of them that ended. `project`, `plate`: absolute paths of
+    /// what is open, whose jobs are shown, with those that were submitted here and all that are not
+    /// over; empty: none.
+    [[nodiscard]] std::vector<Ended> poll(const std::string& project, const std::string& plate);
     [[nodiscard]] const std::vector<JobView>& jobs() const { return jobs_; }
     [[nodiscard]] std::string log_tail(int id) const { return children_.log_tail(id); }
     /// Increases with every change of a job.

@@ -29,7 +29,8 @@ void Renders::submit(const SubmitJob& action) {
     use_.end_stroke();
     Project project = resolve_paths(document.committed(), document.folder());
     if (!document.path().empty()) project.name = fs::path(document.path()).stem().string();
-    auto request = render_request(action, std::move(project), use_.plate.reader()->frames());
+    auto request =
+        render_request(action, std::move(project), use_.plate.reader()->frames(), project_file());
     if (!request) {
         use_.notices.add(NoticeKind::kError, request.error().text());
         return;
@@ -52,8 +53,16 @@ void Renders::submit(const SubmitJob& action) {
     });
 }
 
+std::string Renders::project_file() const {
+    const std::string& path = use_.document.path();
+    return path.empty() ? path : fs::absolute(path).lexically_normal().string();
+}
+
 void Renders::watch() {
-    for (const JobDesk::Ended& job : jobs_.poll()) {
+    const Document& document = use_.document;
+    const std::string plate =
+        document.is_open() ? resolve_path(document.folder(), document.project().plate.path) : "";
+    for (const JobDesk::Ended& job : jobs_.poll(project_file(), plate)) {
         if (job.failed)
             use_.notices.add(NoticeKind::kError, "Render failed. " + job.error);
         else

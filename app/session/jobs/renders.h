@@ -44,6 +44,9 @@ class Renders {
     void show(SessionView& view) const { view.jobs = jobs_.jobs(); }
 
   private:
+    /// Absolute; empty if it was never saved.
+    [[nodiscard]] std::string project_file() const;
+
     Uses use_;
     JobDesk jobs_;
 };
