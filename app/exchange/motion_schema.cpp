@@ -43,6 +43,29 @@ SchemaJson corner_pin_schema() {
             {"properties", {{"median", {{"type", "number"}}}, {"p90", {{"type", "number"}}}}}}}}}};
 }
 
+SchemaJson roto_schema() {
+    return {{"type", "object"},
+            {"properties",
+             {{"nuke", of_type("string", "A Python script that builds Roto nodes")},
+              {"blender", of_type("string", "A Python script that adds a mask")},
+              {"mlt", of_type("string", "Properties of MLT's filter rotoscoping")},
+              {"shapes",
+               {{"type", "array"},
+                {"items",
+                 {{"type", "object"},
+                  {"properties",
+                   {{"name", {{"type", "string"}}},
+                    {"hole", of_type("boolean", "It is taken off of what is around it")},
+                    {"first", of_type("integer", "The first frame on which it is seen")},
+                    {"last", {{"type", "integer"}}},
+                    {"points", {{"type", "integer"}}}}}}}}},
+              {"off_matte_px",
+               {{"type", "object"},
+                {"description", "How far the matte's outlines are from the shapes, on average"},
+                {"properties",
+                 {{"mean", {{"type", "number"}}}, {"worst_frame", {{"type", "number"}}}}}}}}}};
+}
+
 SchemaJson motion_region_schema() {
     const SchemaJson maps{
         {"type", "object"},
@@ -66,7 +89,8 @@ SchemaJson motion_region_schema() {
               {"reference_frame", {{"type", "integer"}}},
               {"st_maps", maps},
               {"vectors", vectors},
-              {"corner_pin", corner_pin_schema()}}}};
+              {"corner_pin", corner_pin_schema()},
+              {"roto", roto_schema()}}}};
 }
 
 }  // namespace

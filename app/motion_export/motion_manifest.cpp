@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/frame_range.h"
+#include "engine/mask/shape_text.h"
 
 namespace weft {
 namespace {
@@ -31,6 +32,25 @@ OrderedJson corner_pin_json(const MotionPaths& paths, const RegionCorners& corne
               {"p90", rounded(static_cast<double>(corners.off_p90_px))}}}};
 }
 
+OrderedJson roto_json(const MotionPaths& paths, const RegionShapes& found) {
+    OrderedJson shapes = OrderedJson::array();
+    for (std::size_t k = 0; k < found.shapes.size(); ++k) {
+        const auto& keys = found.shapes[k].keys;
+        shapes.push_back({{"name", shape_name(found.shapes, k)},
+                          {"hole", found.shapes[k].level % 2 == 1},
+                          {"first", keys.begin()->first},
+                          {"last", keys.rbegin()->first},
+                          {"points", keys.begin()->second.points.size()}});
+    }
+    return {{"nuke", paths.nuke_shapes},
+            {"blender", paths.blender_shapes},
+            {"mlt", paths.mlt_shapes},
+            {"shapes", shapes},
+            {"off_matte_px",
+             {{"mean", rounded(static_cast<double>(found.off_mean_px))},
+              {"worst_frame", rounded(static_cast<double>(found.off_worst_px))}}}};
+}
+
 OrderedJson region_json(const MotionManifest::Entry& entry, StConvention st) {
     const MotionPaths& paths = entry.paths;
     OrderedJson out{{"name", entry.region.name},
@@ -44,6 +64,7 @@ OrderedJson region_json(const MotionManifest::Entry& entry, StConvention st) {
         out["vectors"].push_back({{"convention", name_of(convention)}, {"path", path}});
     if (entry.corners)
         out["corner_pin"] = corner_pin_json(paths, *entry.corners, entry.region.reference);
+    if (entry.shapes) out["roto"] = roto_json(paths, *entry.shapes);
     return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/motion_export/motion_paths.h"
 #include "engine/pipeline/region_corners.h"
+#include "engine/pipeline/region_shapes.h"
 
 namespace weft {
 
@@ -16,7 +17,8 @@ struct MotionManifest {
     struct Entry {
         MotionRegion region;
         MotionPaths paths;
-        std::optional<RegionCorners> corners;  ///< Empty: it has no corner pin.
+        std::optional<RegionCorners> corners;     ///< Empty: it has no corner pin.
+        std::optional<RegionShapes> shapes = {};  ///< Empty: it has no roto shapes.
     };
     StConvention st = StConvention::kNuke;
     std::vector<Entry> regions;

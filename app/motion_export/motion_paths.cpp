@@ -41,8 +41,8 @@ bool is_manifest(const std::string& path) {
 
 std::vector<std::string> texts_of(const MotionPaths& paths) {
     std::vector<std::string> out;
-    for (const std::string* file :
-         {&paths.nuke, &paths.after_effects, &paths.blender, &paths.track})
+    for (const std::string* file : {&paths.nuke, &paths.after_effects, &paths.blender, &paths.track,
+                                    &paths.nuke_shapes, &paths.blender_shapes, &paths.mlt_shapes})
         if (!file->empty()) out.push_back(*file);
     return out;
 }
@@ -111,7 +111,8 @@ std::vector<MotionPaths> motion_paths(const MotionJobSpec& spec,
         std::string folder = wanted;
         for (int number = 2; !taken.insert(folder).second; ++number)
             folder = wanted + "_" + std::to_string(number);
-        MotionPaths paths{folder, {}, {}, {}, {}, {}, {}, {}};
+        MotionPaths paths;
+        paths.folder = folder;
         if (spec.what.st_maps && spec.st == StConvention::kNuke) {
             paths.st_map = folder + "/st/####.exr";
         } else if (spec.what.st_maps) {
@@ -127,6 +128,11 @@ std::vector<MotionPaths> motion_paths(const MotionJobSpec& spec,
             paths.after_effects = folder + "/corner_pin_after_effects.txt";
             paths.blender = folder + "/corner_pin_blender.py";
             paths.track = folder + "/track.json";
+        }
+        if (spec.what.shapes) {
+            paths.nuke_shapes = folder + "/roto_nuke.py";
+            paths.blender_shapes = folder + "/roto_blender.py";
+            paths.mlt_shapes = folder + "/roto_mlt.json";
         }
         out.push_back(std::move(paths));
     }

@@ -24,6 +24,8 @@ struct MotionPaths {
     std::vector<std::pair<MotionConvention, std::string>> vectors;
     /// Corner pins: Nuke, After Effects, Blender, Weft.
     std::string nuke, after_effects, blender, track;
+    /// Roto shapes: Nuke, Blender, MLT.
+    std::string nuke_shapes, blender_shapes, mlt_shapes;
 };
 
 /// One for each region. Folders are named after the regions, with _ for all but letters, digits,

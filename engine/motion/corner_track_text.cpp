@@ -6,25 +6,19 @@
 #include <cassert>
 #include <functional>
 
+#include "engine/core/short_number.h"
+
 namespace weft {
 namespace {
 
 using Corner = glm::dvec2;
-
-// Without "-0.0000", which one rounding gives and another does not.
-std::string number_text(double value, int decimals = 4) {
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    const std::size_t last = text.find_last_not_of('0');
-    text.resize(text[last] == '.' ? last : last + 1);
-    return text == "-0" ? "0" : text;
-}
 
 // "curve x1001 12.5 12.75 …": a key for each frame.
 std::string nuke_curve(const CornerTrack& track,
                        const std::function<double(const Quad<double>&)>& of) {
     std::string text = fmt::format("{{curve x{}", track.begin()->first);
     for (const auto& [frame, quad] : track)
-        text += " " + number_text(of(quad));
+        text += " " + short_number(of(quad));
     return text + "}";
 }
 
@@ -57,8 +51,8 @@ std::string nuke_corner_pin(const CornerTrack& track, const CornerTextContext& c
     const Quad<double>& at = track.at(context.reference);
     for (std::size_t k = 0; k < kNukeOrder.size(); ++k) {
         const Corner from = at[kNukeOrder[k]];
-        text += fmt::format(" from{} {{{} {}}}\n", k + 1, number_text(from.x),
-                            number_text(height - from.y));
+        text += fmt::format(" from{} {{{} {}}}\n", k + 1, short_number(from.x),
+                            short_number(height - from.y));
     }
     return text + fmt::format(" name {}\n label \"reference frame {}\"\n selected true\n}}\n",
                               context.name, context.reference);
@@ -69,8 +63,8 @@ std::string after_effects_corner_pin(const CornerTrack& track, const CornerTextC
         "Adobe After Effects 8.0 Keyframe Data\r\n\r\n\tUnits Per Second\t{}\r\n"
         "\tSource Width\t{}\r\n\tSource Height\t{}\r\n\tSource Pixel Aspect Ratio\t{}\r\n"
         "\tComp Pixel Aspect Ratio\t{}\r\n\r\n",
-        number_text(context.fps), context.plate.width, context.plate.height,
-        number_text(context.pixel_aspect), number_text(context.pixel_aspect));
+        short_number(context.fps), context.plate.width, context.plate.height,
+        short_number(context.pixel_aspect), short_number(context.pixel_aspect));
     for (const NamedCorner& corner : kEffectCorners) {
         text += fmt::format(
             "Effects\tADBE Corner Pin #1\tADBE Corner Pin-{}\r\n\tFrame\tX pixels\tY pixels\t\r\n",
@@ -78,7 +72,7 @@ std::string after_effects_corner_pin(const CornerTrack& track, const CornerTextC
         for (const auto& [frame, quad] : track) {
             const Corner at = quad[corner.index];
             text += fmt::format("\t{}\t{}\t{}\t\r\n", frame - context.first_frame,
-                                number_text(at.x), number_text(at.y));
+                                short_number(at.x), short_number(at.y));
         }
         text += "\r\n";
     }
@@ -96,8 +90,8 @@ std::string blender_corner_pin(const CornerTrack& track, const CornerTextContext
         text += fmt::format("    {}: (", frame);
         for (const NamedCorner& corner : kBlenderCorners) {
             const Corner at = quad[corner.index];
-            text += fmt::format("({}, {}), ", number_text(at.x / context.plate.width, kDecimals),
-                                number_text(1 - at.y / context.plate.height, kDecimals));
+            text += fmt::format("({}, {}), ", short_number(at.x / context.plate.width, kDecimals),
+                                short_number(1 - at.y / context.plate.height, kDecimals));
         }
         text += "),\n";
     }

@@ -172,6 +172,44 @@ TEST_F(MotionCommand, CornerPinsOutAndIn) {
     EXPECT_LT(worst, 0.05f);
 }
 
+// The card's corners, on every frame.
+TEST_F(MotionCommand, ShapesGoWithTheCard) {
+    make_project(5);
+    expect_success(motion({"--export", "roto", "--reference", "1003"}));
+    EXPECT_EQ(names("out/card"), (Words{"roto_blender.py", "roto_mlt.json", "roto_nuke.py"}));
+    const Json roto = Json::parse(bytes("out/motion.json"))["regions"][0]["roto"];
+    ASSERT_EQ(roto["shapes"].size(), 1u);
+    EXPECT_EQ(roto["shapes"][0]["name"], "outline_1");
+    EXPECT_EQ(roto["shapes"][0]["first"], 1001);
+    EXPECT_EQ(roto["shapes"][0]["last"], 1005);
+    EXPECT_LT(roto["off_matte_px"]["worst_frame"].get<double>(), 0.5);
+    const Json shapes = Json::parse(bytes("out/card/roto_mlt.json"));
+    ASSERT_EQ(shapes.size(), 2u);
+    const Json& spline = shapes[1]["spline"];
+    ASSERT_EQ(spline.size(), 5u);
+    for (int step = 0; step < 5; ++step) {
+        const Json& points = spline[std::to_string(step)];
+        ASSERT_EQ(points.size(), spline["2"].size());
+        Vec2 low(1e6f), high(-1e6f);
+        for (const Json& point : points) {
+            const Vec2 at(160 * point[1][0].get<float>(), 120 * point[1][1].get<float>());
+            low = glm::min(low, at), high = glm::max(high, at);
+        }
+        const Vec2i corner = Card::corner(step);
+        EXPECT_LT(glm::length(low - Vec2(corner)), 1);
+        EXPECT_LT(glm::length(high - Vec2(corner) - Vec2(Card::kWidth, Card::kHeight)), 1);
+    }
+}
+
+TEST_F(MotionCommand, ARegionThatIsNotSeenHasNoShapes) {
+    make_project(3);
+    put_matte("masks/1002.png", Matte(Card::kPlate));
+    const Outcome outcome = motion({"--export", "roto", "--frames", "1002"});
+    expect_success(outcome);
+    EXPECT_THAT(outcome.err, HasSubstr("'card' has no roto shapes"));
+    EXPECT_EQ(names("out/card"), Words{});
+}
+
 TEST_F(MotionCommand, OtherProgramsGetAFileForEachWay) {
     make_project(2);
     for (const char* program : {"fusion", "blender"}) {
@@ -191,6 +229,9 @@ TEST_F(MotionCommand, BytesDependOnNeitherThreadsNorFolder) {
     make_project(3);
     expect_success(motion({"--threads", "1"}));
     expect_success(motion({"--threads", "3", "-o", "again", "--no-cache"}));
+    expect_success(motion({"--threads", "1", "--export", "roto", "-o", "roto"}));
+    expect_success(motion({"--threads", "3", "--export", "roto", "-o", "roto_again"}));
+    EXPECT_EQ(contents("roto/card"), contents("roto_again/card"));
     for (const char* part : {"", "/card", "/card/st", "/card/vectors_nuke"})
         EXPECT_EQ(contents(std::string("out") + part), contents(std::string("again") + part));
 }
@@ -251,7 +292,7 @@ TEST_F(MotionCommand, SaysWhatIsWrong) {
     expect_failure(motion({"--region", "wall"}), 2, {"no enabled region 'wall'", "'card'"});
     expect_failure(motion({"--reference", "1009"}), 4, {"1009", "frames 1001-1003"});
     expect_failure(motion({"--frames", "1002-1005"}), 4, {"1004", "1005", "1001-1003"});
-    expect_failure(motion({"--export", "mesh"}), 2, {"--export", "st, vectors or corners"});
+    expect_failure(motion({"--export", "model"}), 2, {"--export", "st, vectors, corners or roto"});
     expect_failure(motion({"--overwrite", "--resume"}), 2, {"--overwrite", "--resume"});
     expect_failure(run({"motion", "gone.weft", "-o", "out"}), 3, {"gone.weft"});
     put_matte("masks/1002.png", Matte(Card::kPlate));

@@ -26,6 +26,13 @@ CommandResult motion_command(const MotionJobSpec& spec, ProgressStyle progress) 
                           off["median"].get<double>(), off["p90"].get<double>());
             answer.text += line;
         }
+        if (region.contains("roto")) {
+            char line[96];
+            const auto& roto = region["roto"];
+            std::snprintf(line, sizeof line, ", %zu roto shapes, off the matte %.2f px (mean)",
+                          roto["shapes"].size(), roto["off_matte_px"]["mean"].get<double>());
+            answer.text += line;
+        }
         answer.text += "\n";
     }
     return answer;

@@ -48,8 +48,8 @@ void add_choices(CLI::App& command, MotionFlags& flags) {
         ->transform(whole_number(-kMaxFrameNumber, kMaxFrameNumber))
         ->type_name("N");
     command.add_option("--frames", flags.spec.frames, "Frames to write [all of the project]");
-    add_words(command, "--export", flags.what, {"st", "vectors", "corners"},
-              "What to write: st, vectors, corners [all]");
+    add_words(command, "--export", flags.what, {"st", "vectors", "corners", "roto"},
+              "What to write: st, vectors, corners, roto [st,vectors,corners]");
     command
         .add_option("--st-convention", flags.spec.st,
                     "Files of the ST-maps: nuke, fusion or blender [nuke]")
@@ -68,10 +68,10 @@ CommandResult run_motion(MotionFlags& flags) {
                     "Leave one out.");
     MotionJobSpec& spec = flags.spec;
     const auto wants = [&](const char* name) {
-        return flags.what.empty() ||
-               std::find(flags.what.begin(), flags.what.end(), name) != flags.what.end();
+        return std::find(flags.what.begin(), flags.what.end(), name) != flags.what.end();
     };
-    spec.what = {wants("st"), wants("vectors"), wants("corners")};
+    if (!flags.what.empty())
+        spec.what = {wants("st"), wants("vectors"), wants("corners"), wants("roto")};
     if (!flags.vectors.empty()) spec.vectors.clear();
     for (const std::string& name : flags.vectors) {
         const MotionConvention convention = convention_named(name);
@@ -93,7 +93,8 @@ CommandResult run_motion(MotionFlags& flags) {
 
 void add_motion_command(CLI::App& app, CommandResult& result) {
     CLI::App* command = app.add_subcommand(
-        "motion", "Write a project's motion for other programs: ST-maps, vectors, corner pins");
+        "motion",
+        "Write a project's motion for other programs: ST-maps, vectors, corner pins, roto shapes");
     const auto flags = std::make_shared<MotionFlags>();
     add_project_path(*command, flags->project);
     command->add_option("-o,--output", flags->spec.folder, "Folder to write")
@@ -112,6 +113,7 @@ void add_motion_command(CLI::App& app, CommandResult& result) {
         "Examples:\n"
         "  weft motion shot.weft -o motion\n"
         "  weft motion shot.weft -o motion --region wall --reference 1040 --export st,corners\n"
+        "  weft motion shot.weft -o motion --export roto\n"
         "  weft motion shot.weft -o motion --vector-convention nuke,blender --resume --json");
     on_run(*command, result, [=] { return run_motion(*flags); });
 }
