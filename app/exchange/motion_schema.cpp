@@ -66,6 +66,17 @@ SchemaJson roto_schema() {
                  {{"mean", {{"type", "number"}}}, {"worst_frame", {{"type", "number"}}}}}}}}}};
 }
 
+SchemaJson mesh_schema() {
+    return {{"type", "object"},
+            {"properties",
+             {{"obj", of_type("string", "The mesh on the reference frame, with UVs")},
+              {"pc2", of_type("string", "A point cache with a sample for each frame")},
+              {"usd", of_type("string", "The same as USD, as text")},
+              {"corners", {{"type", "integer"}}},
+              {"faces", {{"type", "integer"}}},
+              {"depth", of_type("boolean", "z is known; it is 0 otherwise")}}}};
+}
+
 SchemaJson motion_region_schema() {
     const SchemaJson maps{
         {"type", "object"},
@@ -90,7 +101,8 @@ SchemaJson motion_region_schema() {
               {"st_maps", maps},
               {"vectors", vectors},
               {"corner_pin", corner_pin_schema()},
-              {"roto", roto_schema()}}}};
+              {"roto", roto_schema()},
+              {"mesh", mesh_schema()}}}};
 }
 
 }  // namespace

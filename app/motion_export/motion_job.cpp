@@ -7,6 +7,7 @@
 #include "app/exchange/track_file.h"
 #include "app/motion_export/motion_frames.h"
 #include "app/motion_export/motion_manifest.h"
+#include "app/motion_export/motion_mesh.h"
 #include "app/motion_export/motion_shapes.h"
 #include "app/render/existing_frames.h"
 #include "app/render/job_frames.h"
@@ -167,8 +168,8 @@ Status write_corner_pins(MotionRun& job) {
 
 Status make_folders(const MotionRun& job) {
     for (const MotionPaths& paths : job.paths) {
-        std::vector<std::string> files{paths.st_map, paths.stabilize, paths.track,
-                                       paths.mlt_shapes};
+        std::vector<std::string> files{paths.st_map, paths.stabilize, paths.track, paths.mlt_shapes,
+                                       paths.mesh_obj};
         for (const auto& [convention, path] : paths.vectors)
             files.push_back(path);
         for (const std::string& file : files) {
@@ -180,21 +181,29 @@ Status make_folders(const MotionRun& job) {
     return make_folder(job.spec.folder, job.rule);
 }
 
-// A region that no frame shows has no shapes, which is no error of the others.
-Status write_shapes(MotionRun& job) {
+// Roto shapes and meshes. A region that cannot have them is no error of the others.
+Status write_outlines_and_meshes(MotionRun& job) {
     for (std::size_t k = 0; k < job.paths.size(); ++k) {
-        if (job.paths[k].mlt_shapes.empty()) continue;
-        if (job.cancel.cancelled()) return cancelled(job.cancel);
         const MotionRegion& region = job.motion.regions[k];
-        auto shapes = write_motion_shapes(
-            {job.spec, *job.shot, job.motion, region, job.paths[k], *job.surfaces[k], job.rule});
-        if (!shapes && shapes.error().code != ErrorCode::kRenderFailed)
-            return fail_in(std::move(shapes).error(), "Region '" + region.name + "'");
-        if (shapes)
-            job.manifest.regions[k].shapes = std::move(*shapes);
-        else
-            job.result.warnings.push_back("Region '" + region.name +
-                                          "' has no roto shapes: " + shapes.error().sentence());
+        const MotionFramesInputs in{job.spec,     *job.shot,        job.motion, region,
+                                    job.paths[k], *job.surfaces[k], job.rule};
+        const auto keep = [&](auto made, auto& kept, const char* what) -> Status {
+            if (!made && made.error().code != ErrorCode::kRenderFailed)
+                return fail_in(std::move(made).error(), "Region '" + region.name + "'");
+            if (made)
+                kept = std::move(*made);
+            else
+                job.result.warnings.push_back("Region '" + region.name + "' has no " + what + ": " +
+                                              made.error().sentence());
+            return {};
+        };
+        if (job.cancel.cancelled()) return cancelled(job.cancel);
+        MotionManifest::Entry& entry = job.manifest.regions[k];
+        if (job.spec.what.shapes)
+            WEFT_CHECK_OK(keep(write_motion_shapes(in), entry.shapes, "roto shapes"));
+        if (job.spec.what.mesh)
+            WEFT_CHECK_OK(
+                keep(write_motion_mesh(in, *job.store, job.manifest.fps), entry.mesh, "mesh"));
     }
     return {};
 }
@@ -249,7 +258,7 @@ Expected<MotionJobResult> run_motion_job(const MotionJobSpec& spec, const Cancel
     WEFT_CHECK_OK(make_folders(job));
     WEFT_CHECK_OK(write_manifest(job, false));
     WEFT_CHECK_OK(write_corner_pins(job));
-    WEFT_CHECK_OK(write_shapes(job));
+    WEFT_CHECK_OK(write_outlines_and_meshes(job));
     WEFT_CHECK_OK(write_pictures(job));
     WEFT_CHECK_OK(check_unchanged(job.shot->inputs->changed()));
     WEFT_CHECK_OK(write_manifest(job, true));

@@ -1,6 +1,6 @@
 #pragma once
 // The motion of a project's surfaces for other programs, without a render: ST-maps, vectors, corner
-// pins, roto shapes.
+// pins, roto shapes, meshes.
 
 #include <optional>
 #include <string>
@@ -22,7 +22,7 @@ enum class StConvention {
 
 /// What is written of each region.
 struct MotionExports {
-    bool st_maps = true, vectors = true, corner_pins = true, shapes = false;
+    bool st_maps = true, vectors = true, corner_pins = true, shapes = false, mesh = false;
 };
 
 struct MotionJobSpec {

@@ -64,6 +64,10 @@ OrderedJson region_json(const MotionManifest::Entry& entry, StConvention st) {
         out["vectors"].push_back({{"convention", name_of(convention)}, {"path", path}});
     if (entry.corners)
         out["corner_pin"] = corner_pin_json(paths, *entry.corners, entry.region.reference);
+    if (entry.mesh)
+        out["mesh"] = {{"obj", paths.mesh_obj},      {"pc2", paths.mesh_pc2},
+                       {"usd", paths.mesh_usd},      {"corners", entry.mesh->corners},
+                       {"faces", entry.mesh->faces}, {"depth", entry.mesh->depth}};
     if (entry.shapes) out["roto"] = roto_json(paths, *entry.shapes);
     return out;
 }

@@ -8,6 +8,12 @@
 
 namespace weft {
 
+/// What an export says of a mesh.
+struct MeshSummary {
+    std::size_t corners = 0, faces = 0;
+    bool depth = false;
+};
+
 /// What an export says of itself.
 struct MotionManifest {
     bool complete = false;
@@ -19,6 +25,7 @@ struct MotionManifest {
         MotionPaths paths;
         std::optional<RegionCorners> corners;     ///< Empty: it has no corner pin.
         std::optional<RegionShapes> shapes = {};  ///< Empty: it has no roto shapes.
+        std::optional<MeshSummary> mesh = {};     ///< Empty: it has no mesh.
     };
     StConvention st = StConvention::kNuke;
     std::vector<Entry> regions;

@@ -42,7 +42,8 @@ bool is_manifest(const std::string& path) {
 std::vector<std::string> texts_of(const MotionPaths& paths) {
     std::vector<std::string> out;
     for (const std::string* file : {&paths.nuke, &paths.after_effects, &paths.blender, &paths.track,
-                                    &paths.nuke_shapes, &paths.blender_shapes, &paths.mlt_shapes})
+                                    &paths.nuke_shapes, &paths.blender_shapes, &paths.mlt_shapes,
+                                    &paths.mesh_obj, &paths.mesh_pc2, &paths.mesh_usd})
         if (!file->empty()) out.push_back(*file);
     return out;
 }
@@ -133,6 +134,11 @@ std::vector<MotionPaths> motion_paths(const MotionJobSpec& spec,
             paths.nuke_shapes = folder + "/roto_nuke.py";
             paths.blender_shapes = folder + "/roto_blender.py";
             paths.mlt_shapes = folder + "/roto_mlt.json";
+        }
+        if (spec.what.mesh) {
+            paths.mesh_obj = folder + "/mesh.obj";
+            paths.mesh_pc2 = folder + "/mesh.pc2";
+            paths.mesh_usd = folder + "/mesh.usda";
         }
         out.push_back(std::move(paths));
     }

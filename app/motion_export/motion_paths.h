@@ -26,6 +26,8 @@ struct MotionPaths {
     std::string nuke, after_effects, blender, track;
     /// Roto shapes: Nuke, Blender, MLT.
     std::string nuke_shapes, blender_shapes, mlt_shapes;
+    /// The mesh: OBJ, PC2, USD.
+    std::string mesh_obj, mesh_pc2, mesh_usd;
 };
 
 /// One for each region. Folders are named after the regions, with _ for all but letters, digits,

@@ -88,20 +88,22 @@ void add_all(std::set<int>& frames, const MotionPlan& motion) {
         frames.insert(region.reference);
 }
 
-// Leaves only what the export needs to be analysed. The form says which plane corners are of; all
+// Leaves only what the export needs to be analysed. The form says which plane corners are of and
+// how deep a mesh is; all
 // regions whose motion tells something of the lens decide it together.
 void leave_rest_out(const MotionJobSpec& spec, MotionPlan& motion) {
     std::vector<RegionPlan>& regions = motion.plan.regions;
     std::vector<char> chosen(regions.size(), 0);
     bool lens = false;
+    const bool forms = spec.what.corner_pins || spec.what.mesh;
     for (const MotionRegion& region : motion.regions) {
         const auto k = static_cast<std::size_t>(region.index);
         chosen[k] = 1;
-        lens = lens || (spec.what.corner_pins && regions[k].shares_lens());
+        lens = lens || (forms && regions[k].shares_lens());
     }
     for (std::size_t k = 0; k < regions.size(); ++k) {
         RegionPlan& region = regions[k];
-        const bool form = (chosen[k] && spec.what.corner_pins) || (lens && region.shares_lens());
+        const bool form = (chosen[k] && forms) || (lens && region.shares_lens());
         const auto zones = chosen[k] ? region.zones : std::vector<ZonePlan>();
         leave_look_out(region);
         region.zones = zones;  // they may change the motion

@@ -12,9 +12,10 @@ namespace {
 // Letters, digits and _ of ASCII only, as programs name nodes.
 std::string node_name(const std::string& folder) {
     std::string out = "roto_";
-    for (const char c : folder)
-        out += std::isalnum(static_cast<unsigned char>(c)) && static_cast<signed char>(c) > 0 ? c
-                                                                                              : '_';
+    for (const char c : folder) {
+        const auto code = static_cast<unsigned char>(c);
+        out += code < 128 && std::isalnum(code) ? c : '_';
+    }
     return out;
 }
 

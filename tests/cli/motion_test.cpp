@@ -1,5 +1,6 @@
 // weft motion: what it writes, read again, and what it refuses.
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "engine/media/image_files.h"
@@ -201,6 +202,28 @@ TEST_F(MotionCommand, ShapesGoWithTheCard) {
     }
 }
 
+TEST_F(MotionCommand, AMeshGoesWithTheCard) {
+    make_project(5);
+    expect_success(motion({"--export", "mesh", "--reference", "1003"}));
+    EXPECT_EQ(names("out/card"), (Words{"mesh.obj", "mesh.pc2", "mesh.usda"}));
+    const Json mesh = Json::parse(bytes("out/motion.json"))["regions"][0]["mesh"];
+    EXPECT_EQ(mesh["pc2"], "card/mesh.pc2");
+    const std::string cache = bytes("out/card/mesh.pc2");
+    const auto points = mesh["corners"].get<std::size_t>();
+    ASSERT_EQ(cache.size(), 32 + 5 * points * 12);
+    const auto number = [&](std::size_t step, std::size_t k, std::size_t axis) {
+        float out = 0;
+        std::memcpy(&out, cache.data() + 32 + (step * points + k) * 12 + 4 * axis, sizeof out);
+        return out;
+    };
+    for (std::size_t step = 0; step < 5; ++step)
+        for (std::size_t k = 0; k < points; ++k) {
+            const float t = static_cast<float>(step) - 2;
+            EXPECT_NEAR(number(step, k, 0), number(2, k, 0) + 2 * t, 0.15f);
+            EXPECT_NEAR(number(step, k, 1), number(2, k, 1) - t, 0.15f);
+        }
+}
+
 TEST_F(MotionCommand, ARegionThatIsNotSeenHasNoShapes) {
     make_project(3);
     put_matte("masks/1002.png", Matte(Card::kPlate));
@@ -292,7 +315,7 @@ TEST_F(MotionCommand, SaysWhatIsWrong) {
     expect_failure(motion({"--region", "wall"}), 2, {"no enabled region 'wall'", "'card'"});
     expect_failure(motion({"--reference", "1009"}), 4, {"1009", "frames 1001-1003"});
     expect_failure(motion({"--frames", "1002-1005"}), 4, {"1004", "1005", "1001-1003"});
-    expect_failure(motion({"--export", "model"}), 2, {"--export", "st, vectors, corners or roto"});
+    expect_failure(motion({"--export", "model"}), 2, {"--export", "st, vectors, corners, roto or mesh"});
     expect_failure(motion({"--overwrite", "--resume"}), 2, {"--overwrite", "--resume"});
     expect_failure(run({"motion", "gone.weft", "-o", "out"}), 3, {"gone.weft"});
     put_matte("masks/1002.png", Matte(Card::kPlate));

@@ -26,6 +26,8 @@ CommandResult motion_command(const MotionJobSpec& spec, ProgressStyle progress) 
                           off["median"].get<double>(), off["p90"].get<double>());
             answer.text += line;
         }
+        if (region.contains("mesh"))
+            answer.text += region["mesh"]["depth"] ? ", a mesh with depth" : ", a flat mesh";
         if (region.contains("roto")) {
             char line[96];
             const auto& roto = region["roto"];

@@ -44,12 +44,12 @@ void add_choices(CLI::App& command, MotionFlags& flags) {
         ->type_name("NAME");
     command
         .add_option("--reference", flags.spec.reference,
-                    "Frame that the ST-maps and corner pins start from [each region's own]")
+                    "Frame that ST-maps, pins, shapes and meshes start from [each region's own]")
         ->transform(whole_number(-kMaxFrameNumber, kMaxFrameNumber))
         ->type_name("N");
     command.add_option("--frames", flags.spec.frames, "Frames to write [all of the project]");
-    add_words(command, "--export", flags.what, {"st", "vectors", "corners", "roto"},
-              "What to write: st, vectors, corners, roto [st,vectors,corners]");
+    add_words(command, "--export", flags.what, {"st", "vectors", "corners", "roto", "mesh"},
+              "What to write: st, vectors, corners, roto, mesh [st,vectors,corners]");
     command
         .add_option("--st-convention", flags.spec.st,
                     "Files of the ST-maps: nuke, fusion or blender [nuke]")
@@ -71,7 +71,7 @@ CommandResult run_motion(MotionFlags& flags) {
         return std::find(flags.what.begin(), flags.what.end(), name) != flags.what.end();
     };
     if (!flags.what.empty())
-        spec.what = {wants("st"), wants("vectors"), wants("corners"), wants("roto")};
+        spec.what = {wants("st"), wants("vectors"), wants("corners"), wants("roto"), wants("mesh")};
     if (!flags.vectors.empty()) spec.vectors.clear();
     for (const std::string& name : flags.vectors) {
         const MotionConvention convention = convention_named(name);
@@ -92,9 +92,9 @@ CommandResult run_motion(MotionFlags& flags) {
 }  // namespace
 
 void add_motion_command(CLI::App& app, CommandResult& result) {
-    CLI::App* command = app.add_subcommand(
-        "motion",
-        "Write a project's motion for other programs: ST-maps, vectors, corner pins, roto shapes");
+    CLI::App* command = app.add_subcommand("motion",
+                                           "Write a project's motion for other programs: ST-maps, "
+                                           "vectors, corner pins, roto shapes, meshes");
     const auto flags = std::make_shared<MotionFlags>();
     add_project_path(*command, flags->project);
     command->add_option("-o,--output", flags->spec.folder, "Folder to write")
@@ -113,7 +113,7 @@ void add_motion_command(CLI::App& app, CommandResult& result) {
         "Examples:\n"
         "  weft motion shot.weft -o motion\n"
         "  weft motion shot.weft -o motion --region wall --reference 1040 --export st,corners\n"
-        "  weft motion shot.weft -o motion --export roto\n"
+        "  weft motion shot.weft -o motion --export roto,mesh\n"
         "  weft motion shot.weft -o motion --vector-convention nuke,blender --resume --json");
     on_run(*command, result, [=] { return run_motion(*flags); });
 }
