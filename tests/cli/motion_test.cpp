@@ -224,6 +224,29 @@ TEST_F(MotionCommand, AMeshGoesWithTheCard) {
         }
 }
 
+// What bulges towards the camera lies nearer to it, on all frames alike.
+TEST_F(MotionCommand, AMeshHasTheFormsDepth) {
+    make_project(3, {"--form", "inflate"});
+    expect_success(motion({"--export", "mesh"}));
+    const Json mesh = Json::parse(bytes("out/motion.json"))["regions"][0]["mesh"];
+    EXPECT_EQ(mesh["depth"], true);
+    const std::string cache = bytes("out/card/mesh.pc2");
+    const auto points = mesh["corners"].get<std::size_t>();
+    ASSERT_EQ(cache.size(), 32 + 3 * points * 12);
+    std::vector<Vec3> corners(3 * points);
+    std::memcpy(corners.data(), cache.data() + 32, 3 * points * 12);
+    const Vec2 middle = Vec2(Card::corner(0)) + 0.5f * Vec2(Card::kWidth, Card::kHeight);
+    float inside = -1e6f, rim = 1e6f, moved = 0;
+    for (std::size_t k = 0; k < points; ++k) {
+        const Vec2 off = Vec2(corners[k].x, 120 - corners[k].y) - middle;
+        if (glm::length(off) < 8) inside = std::max(inside, corners[k].z);
+        rim = std::min(rim, corners[k].z);
+        moved = std::max(moved, std::abs(corners[2 * points + k].z - corners[k].z));
+    }
+    EXPECT_GT(inside, rim + 4);
+    EXPECT_LT(moved, 3);
+}
+
 TEST_F(MotionCommand, ARegionThatIsNotSeenHasNoShapes) {
     make_project(3);
     put_matte("masks/1002.png", Matte(Card::kPlate));
@@ -315,7 +338,8 @@ TEST_F(MotionCommand, SaysWhatIsWrong) {
     expect_failure(motion({"--region", "wall"}), 2, {"no enabled region 'wall'", "'card'"});
     expect_failure(motion({"--reference", "1009"}), 4, {"1009", "frames 1001-1003"});
     expect_failure(motion({"--frames", "1002-1005"}), 4, {"1004", "1005", "1001-1003"});
-    expect_failure(motion({"--export", "model"}), 2, {"--export", "st, vectors, corners, roto or mesh"});
+    expect_failure(motion({"--export", "model"}), 2,
+                   {"--export", "st, vectors, corners, roto or mesh"});
     expect_failure(motion({"--overwrite", "--resume"}), 2, {"--overwrite", "--resume"});
     expect_failure(run({"motion", "gone.weft", "-o", "out"}), 3, {"gone.weft"});
     put_matte("masks/1002.png", Matte(Card::kPlate));
