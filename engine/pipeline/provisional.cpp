@@ -259,7 +259,8 @@ class FrameFiller {
         const AnalysisKey key{index, reference, AnalysisKind::kForm};
         if (!region.has_form() || store_.has(key)) return {};
         const auto alike = [&](const RegionPlan& then) {
-            return then.form_from == region.form_from && then.reference_frames.front() == reference;
+            return then.form_from == region.form_from && then.surface == region.surface &&
+                   then.reference_frames.front() == reference;
         };
         if (fill_from_earlier(key, alike)) return {};
         const AnalysisKey still{index, reference, AnalysisKind::kCoords};

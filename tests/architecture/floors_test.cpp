@@ -190,9 +190,9 @@ const std::vector<Floor> kFloors{
 const std::vector<Library> kLibraries{
     {"OpenCV",
      {"opencv2/", "opencv4/"},
-     {"engine/media", "engine/motion", "engine/mask", "engine/synthesis", "engine/seam",
-      "engine/temporal", "engine/lighting", "engine/composite", "engine/metrics", "texture_db",
-      "app/render", "app/mattes", "app/preview", "bench"}},
+     {"engine/media", "engine/motion", "engine/form", "engine/mask", "engine/synthesis",
+      "engine/seam", "engine/temporal", "engine/lighting", "engine/composite", "engine/metrics",
+      "texture_db", "app/render", "app/mattes", "app/preview", "bench"}},
     {"OpenImageIO",
      {"OpenImageIO/"},
      {"engine/media", "engine/media/exr_part.h", "engine/media/picture_file.h"}},

@@ -111,6 +111,11 @@ def form(project=None, **options):
     return run("form", *([] if project is None else [project]), **options)["forms"]
 
 
+def motion(project, output, **options):
+    """weft motion: writes the motion of each region for other programs into a folder; returns what motion.json says."""
+    return run("motion", project, output=output, **options)
+
+
 def matte(**options):
     """weft matte: propagates painted mattes; returns "mattes" with each frame's confidence."""
     return run("matte", **options)
