@@ -6,9 +6,9 @@
 #include "app/exchange/collect.h"
 #include "app/exchange/kept_textures.h"
 #include "app/exchange/look.h"
+#include "app/farm/farm.h"
 #include "app/project/codec/project_file.h"
 #include "app/project/codec/update_project.h"
-#include "app/render/farm.h"
 #include "engine/core/child_process.h"
 
 namespace weft {

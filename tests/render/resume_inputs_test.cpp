@@ -3,8 +3,8 @@
 #include <chrono>
 #include <functional>
 
+#include "app/farm/farm.h"
 #include "app/render/existing_frames.h"
-#include "app/render/farm.h"
 #include "app/render/input_hashes.h"
 #include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"

@@ -1,12 +1,12 @@
-#include "app/render/farm.h"
+#include "app/farm/farm.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/base/trust.h"
+#include "app/farm/farm_engines.h"
 #include "app/project/codec/project_json.h"
-#include "app/render/farm_engines.h"
 #include "app/render/input_hashes.h"
 #include "app/render/recipe.h"
 #include "app/render/report.h"

@@ -1,4 +1,4 @@
-#include "app/render/farm_engines.h"
+#include "app/farm/farm_engines.h"
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/render/farm.h"
+#include "app/farm/farm.h"
 
 namespace weft {
 
