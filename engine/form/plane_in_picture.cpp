@@ -195,7 +195,7 @@ Squares errors_of(const Candidate& at, const Places& places) {
 }  // namespace
 
 bool PictureFit::holds(double least_belief) const {
-    constexpr double kMostError = 0.35;     // ln stretch
+    constexpr double kMostError = 0.4;      // ln stretch
     constexpr double kLeastStretch = 0.02;  // ln; less is not seen
     constexpr double kLeastExplained = 0.35, kLeastEvidence = 3;
     return belief >= least_belief && error <= kMostError && log_stretch >= kLeastStretch &&
