@@ -20,7 +20,7 @@ import json
 import os
 import subprocess
 
-__all__ = ["Error", "run", "version", "replace", "render", "form", "matte", "synth", "bench", "measure", "study",
+__all__ = ["Error", "run", "version", "replace", "render", "form", "motion", "matte", "synth", "bench", "measure", "study",
            "diff", "verify", "cryptomatte", "demo", "new", "region_add", "region_set", "region_remove", "region_correct",
            "region_list", "apply", "info", "validate", "look_save", "look_apply", "collect", "submit", "task",
            "trust", "doctor", "schema", "texture_build", "texture_import", "texture_search", "texture_list", "texture_similar",
