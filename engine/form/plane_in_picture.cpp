@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kMostSceneLines = 60, kMostOwnLines = 40;  // that count for themselves
 constexpr double kSceneEvidence = 6;                        // ln, next to no frame at all
+constexpr double kNoScene = 0.1;                            // believed before, next to a scene
 constexpr double kUnlikely = 1e-3;                          // of the belief
 constexpr double kPlaces = 400;                             // of the matte
 constexpr double kBeyond = 0.01;         // of the matte that may lie beyond the horizon
@@ -213,19 +214,20 @@ ScenePerspective scene_perspective(const std::vector<PictureLine>& lines, Size p
     std::vector<double> shares;
     for (const ManhattanFit& fit : fits)
         shares.push_back(evidence.log_likelihood(fit.frame, 3) + fit.evidence - fit.gain);
-    // Directions that are loosely alike are no scene.
-    const std::size_t best =
-        static_cast<std::size_t>(std::max_element(shares.begin(), shares.end()) - shares.begin());
-    const ManhattanFrame& likely = fits[best].frame;
-    if (evidence.log_likelihood(likely, 3) < evidence.loose_likelihood(likely)) return out;
+    // Directions that are only loosely alike are no scene; they are as free.
+    const ManhattanFit& best = fits[static_cast<std::size_t>(
+        std::max_element(shares.begin(), shares.end()) - shares.begin())];
+    shares.push_back(evidence.loose_likelihood(best.frame) + best.evidence - best.gain +
+                     ln(kNoScene));
     make_shares(shares);
-    double mean = 0, square = 0;
+    const double none = shares.back();
+    double mean = none * lens.value,
+           square = none * (lens.value * lens.value + lens.deviation * lens.deviation);
     for (std::size_t k = 0; k < fits.size(); ++k) {
-        if (shares[k] < kUnlikely) continue;
-        out.ways.push_back({fits[k], shares[k]});
         const double tangent = fits[k].frame.tangent;
         mean += shares[k] * tangent;
         square += shares[k] * (tangent * tangent + fits[k].covariance[3][3]);
+        if (shares[k] >= kUnlikely) out.ways.push_back({fits[k], shares[k]});
     }
     // Scenes are not as square as the model has them.
     constexpr double kLeastError = 0.05;
