@@ -212,6 +212,7 @@ ScenePerspective scene_perspective(const std::vector<PictureLine>& lines, Size p
     const std::vector<ManhattanFit> fits = find_manhattan(evidence, lens, all);
     if (fits.empty() || fits.front().evidence < kSceneEvidence) return out;
     std::vector<double> shares;
+    shares.reserve(fits.size() + 1);
     for (const ManhattanFit& fit : fits)
         shares.push_back(evidence.log_likelihood(fit.frame, 3) + fit.evidence - fit.gain);
     // Directions that are only loosely alike are no scene; they are as free.
@@ -245,6 +246,7 @@ std::optional<PictureFit> plane_in_picture(const ScenePerspective& scene,
     const std::vector<Candidate> candidates = candidates_of(scene, evidence, places);
     if (candidates.empty()) return std::nullopt;
     std::vector<double> shares;
+    shares.reserve(candidates.size() + 1);
     for (const Candidate& candidate : candidates)
         shares.push_back(candidate.likely);
     shares.push_back(no_plane(candidates, evidence));
