@@ -8,7 +8,7 @@
 
 namespace weft {
 
-constexpr double kOutlierSquare = 25;            ///< Of an error, in σ: there it counts by half.
+constexpr double kOutlierSquare = 25;  ///< Of an error, in σ: there it counts by half.
 
 /// From the reference frame's view space into a frame's.
 struct RigidPose {

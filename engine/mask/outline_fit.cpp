@@ -191,6 +191,7 @@ std::vector<RotoShape> fitted_shapes(std::vector<PlacedPoints> frames) {
             split_arcs(on, poor);
     }
     std::vector<RotoShape> out;
+    out.reserve(frames.size());
     for (const PlacedPoints& on : frames)
         out.push_back(fitted_shape(on));
     return out;

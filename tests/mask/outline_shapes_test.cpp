@@ -79,6 +79,7 @@ std::vector<OutlinedFrame> outlined(const std::vector<Matte>& mattes, int refere
 
 std::vector<MatteShape> leaf_shapes(int frames, int reference, bool hole) {
     std::vector<Matte> mattes;
+    mattes.reserve(static_cast<std::size_t>(frames));
     for (int t = 0; t < frames; ++t)
         mattes.push_back(leaf_matte(t, hole));
     const auto outlines = outlined(mattes, reference);
@@ -137,12 +138,14 @@ Matte with_box(Matte matte, int x0, int x1, std::uint8_t value) {
 TEST(OutlineShapes, WhereTheTopologyChangesOthersBegin) {
     // It is cut in two on frames 3 and 4, and whole again.
     std::vector<Matte> mattes;
+    mattes.reserve(7);
     for (int t = 0; t < 7; ++t)
         mattes.push_back(t == 3 || t == 4 ? with_box(leaf_matte(t, false), 106, 116, 0)
                                           : leaf_matte(t, false));
     const auto shapes = matte_shapes(outlined(mattes, 1), 1, kPlate);
     ASSERT_EQ(shapes.size(), 4u);
     std::vector<std::pair<int, int>> lives;
+    lives.reserve(shapes.size());
     for (const MatteShape& shape : shapes)
         lives.emplace_back(shape.keys.begin()->first, shape.keys.rbegin()->first);
     EXPECT_THAT(lives, testing::UnorderedElementsAre(std::pair(0, 2), std::pair(3, 4),
@@ -176,6 +179,7 @@ Matte filed_matte(const std::filesystem::path& path) {
 void expect_drawn_again(const std::vector<Matte>& mattes) {
     const Size size = mattes.front().size();
     std::vector<OutlinedFrame> frames;
+    frames.reserve(mattes.size());
     for (const Matte& matte : mattes)
         frames.push_back(
             {outlines_of_matte(matte, 12), LatticeField(size, 16), LatticeField(size, 16)});

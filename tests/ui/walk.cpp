@@ -4,6 +4,7 @@
 
 #include "app/project/codec/project_json.h"
 #include "engine/core/hash.h"
+#include "engine/media/frame_writer.h"
 #include "engine/media/image_files.h"
 
 namespace weft::test {
@@ -29,7 +30,8 @@ std::string pixels_of(const std::string& path, Size size) {
     EXPECT_TRUE(matte) << matte.error().text();
     if (!matte) return "missing";
     Hasher hasher;
-    hasher.bytes(matte->data(), static_cast<std::size_t>(size.width * size.height));
+    hasher.bytes(matte->data(),
+                 static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
     return hasher.finish().hex();
 }
 
