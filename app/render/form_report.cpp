@@ -38,7 +38,7 @@ std::string drawn_name(const RegionPlan& plan) {
 // A reason as the JSON names it, and as a clause after "flat, ".
 struct Reason {
     const char* name;
-    const char* clause;
+    std::string clause;
 };
 
 Reason reason_of(const FormReport& form) {
@@ -58,19 +58,17 @@ Reason reason_of(const FormReport& form) {
         case NotSought::kUnlocked:
             return {"temporal_mode", "because a form needs the locked temporal mode"};
     }
+    const std::string lines = form.lines_asked ? ", and its lines show no plane" : "";
     if (form.finding.frames < kLeastFrames)
-        return {"few_frames",
-                "because too few frames show it for motion to tell its form, and its lines show no "
-                "plane"};
+        return {"few_frames", "because too few frames show it for motion to tell its form" + lines};
     if (form.finding.no_parallax)
-        return {
-            "no_parallax",
-            "because the camera only turns or zooms, and its lines show no plane; draw its form "
-            "by hand"};
+        return {"no_parallax",
+                "because the camera only turns or zooms" + lines + "; draw its form by hand"};
     if (!(form.finding.fov_deg > 0))
-        return {"not_rigid",
-                "because its motion is not that of a rigid thing, and its lines show no plane"};
-    return {"unsure", "because neither motion nor lines tell its form well enough"};
+        return {"not_rigid", "because its motion is not that of a rigid thing" + lines};
+    return {"unsure", form.lines_asked
+                          ? "because neither motion nor lines tell its form well enough"
+                          : "because motion does not tell its form well enough"};
 }
 
 std::string frames_of(int frames) {
@@ -154,6 +152,7 @@ Expected<std::vector<FormReport>> form_reports(const Shot& shot, const AnalysisS
         form.amount = plan.form_amount;
         form.keyed = !plan.form_amount_keys.empty();
         form.not_sought = why_not_sought(region, plan);
+        form.lines_asked = may_be_plane(plan.surface);
         if (plan.has_form()) {
             const AnalysisKey key{static_cast<int>(k), form.frame, AnalysisKind::kForm};
             if (!store.has(key)) continue;
@@ -173,7 +172,7 @@ Expected<std::vector<FormReport>> form_reports(const Shot& shot, const AnalysisS
 
 std::string form_text(const FormReport& form) {
     const FormFinding& f = form.finding;
-    if (form.is_flat()) return std::string("flat, ") + reason_of(form).clause;
+    if (form.is_flat()) return "flat, " + reason_of(form).clause;
     std::string out = what_was_found(form);
     if (has_tilt(f)) {
         out += fmt::format(", tilted {:.0f}°", f.tilt_deg) + error_text(f.tilt_error_deg) +

@@ -31,6 +31,7 @@ struct FormReport {
     bool keyed = false;   ///< The amount has keys.
     FormFinding finding;  ///< kNone: flat.
     NotSought not_sought = NotSought::kSought;
+    bool lines_asked = true;  ///< Whether straight lines could show it: not of cloth or a body.
 
     [[nodiscard]] bool is_flat() const {
         return finding.source == FormFinding::Source::kNone || !(amount > 0);
@@ -43,7 +44,7 @@ struct FormReport {
                                                              const AnalysisStore& store);
 
 /// One line without the region's name: "plane, from 12 frames of motion, tilted 71° ± 2°, field of
-/// view 47°", "flat, because its motion is not that of a rigid thing". Thread-safe.
+/// view 47°", "flat, because the camera only turns or zooms". Thread-safe.
 [[nodiscard]] std::string form_text(const FormReport& form);
 
 /// An entry of `forms` in the report (docs/FORMATS.md). Thread-safe.

@@ -8,10 +8,10 @@ namespace weft {
 /// What a form was found from, and how sure it is.
 struct FormFinding {
     enum class Source : std::uint8_t {
-        kNone,    ///< Nothing: the surface stays flat.
-        kPass,    ///< A renderer's pass.
-        kMotion,  ///< The motion of a rigid thing.
-        kShape,   ///< A shape or strokes that were drawn.
+        kNone,     ///< Nothing: the surface stays flat.
+        kPass,     ///< A renderer's pass.
+        kMotion,   ///< The motion of a rigid thing.
+        kShape,    ///< A shape or strokes that were drawn.
         kOutline,  ///< Inflated from the outline.
         kLines     ///< The straight lines of the reference frame, in perspective.
     };

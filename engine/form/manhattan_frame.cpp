@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/form/exact_math.h"
+#include "engine/form/plane_starts.h"
 #include "engine/form/unit_vector.h"
 
 namespace weft {
@@ -15,10 +16,7 @@ namespace {
 constexpr double kEnd_px = 0.7;  // how exactly a line's end is found, at the long side kSide
 constexpr double kSide = 960;
 constexpr double kLens = 0.3 * std::numbers::pi / 180;  // what lenses bend, radians
-constexpr double kStray = 0.3;  // of the lines that run to no vanishing point
-// Long side over focal length of the lenses that shots are made with: fields of view of 18° to
-// 108°.
-constexpr double kLongestLens = 0.32, kWidestLens = 2.75;
+constexpr double kStray = 0.3;        // of the lines that run to no vanishing point
 constexpr double kHalfWeight = 0.03;  // of the long side: a line of that length counts half
 
 // Of the picture of a step along an axis, at a place: finite also for a vanishing point at
@@ -47,7 +45,9 @@ ManhattanFrame stepped(const ManhattanFrame& frame, const FrameStep& step) {
     out.axes[0] = unit(out.axes[0]);
     out.axes[1] = unit(out.axes[1] - out.axes[0] * glm::dot(out.axes[0], out.axes[1]));
     out.axes[2] = glm::cross(out.axes[0], out.axes[1]);
-    out.tangent = std::clamp(frame.tangent + step[3], kLongestLens, kWidestLens);
+    // A lens that is given may lie beyond those that are found.
+    out.tangent = std::clamp(frame.tangent + step[3], std::min(kLongestLens, frame.tangent),
+                             std::max(kWidestLens, frame.tangent));
     return out;
 }
 

@@ -272,8 +272,8 @@ ManhattanFit fit_of(const ManhattanLines& lines, const ManhattanFrame& frame,
     const double all_turns = 2 * kTau * kTau / (lines.axes() == 3 ? 24 : 8);
     const double volume = std::sqrt(std::max(covariance.determinant(), 1e-300)) * kTau * kTau;
     const double before = all_turns * lens.deviation * std::sqrt(kTau);
-    out.evidence = out.gain - lens_cost(frame.tangent, lens) - upright_cost(frame) +
-                   ln(std::min(1.0, volume / before));
+    out.before =
+        ln(std::min(1.0, volume / before)) - lens_cost(frame.tangent, lens) - upright_cost(frame);
     return out;
 }
 
@@ -289,7 +289,7 @@ std::vector<ManhattanFit> find_manhattan(const ManhattanLines& lines, const Tang
         if (possible(frame.axes[2], frame.tangent)) found.push_back(fit_of(lines, frame, lens));
     }
     std::stable_sort(found.begin(), found.end(), [](const ManhattanFit& a, const ManhattanFit& b) {
-        return a.evidence > b.evidence;
+        return a.evidence() > b.evidence();
     });
     for (const ManhattanFit& fit : found) {
         if (out.size() == kKept) break;
@@ -302,10 +302,8 @@ std::vector<ManhattanFit> find_manhattan(const ManhattanLines& lines, const Tang
     return out;
 }
 
-std::pair<ManhattanFrame, double> turned_best(const ManhattanLines& lines,
-                                              const ManhattanFrame& frame) {
-    const auto [turn, gain] = best_turn(lines, frame, lines.lines().size());
-    return {turned(frame, turn), gain};
+ManhattanFrame turned_best(const ManhattanLines& lines, const ManhattanFrame& frame) {
+    return turned(frame, best_turn(lines, frame, lines.lines().size()).first);
 }
 
 }  // namespace weft

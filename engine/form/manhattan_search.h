@@ -11,8 +11,11 @@ namespace weft {
 struct ManhattanFit {
     ManhattanFrame frame;
     double gain = 0;         ///< ln, of the lines alone.
-    double evidence = 0;     ///< ln of the posterior's volume: gain, what was believed, and errors.
+    double before = 0;       ///< ln of what was believed, and of the share of it that is left.
     FrameMatrix covariance;  ///< Of a FrameStep.
+
+    /// ln of the posterior's volume, next to no frame at all.
+    [[nodiscard]] double evidence() const { return gain + before; }
 };
 
 /// Whether a normal (either sign), seen by a lens of that tangent, may be that of the surface.
@@ -21,14 +24,13 @@ using NormalTest = std::function<bool(const glm::dvec3& normal, double tangent)>
 /// The most likely frames, best first, none of them twice: a search over normals and lenses, each
 /// with the best turn of the other axes by a vote of the lines, then Gauss–Newton steps on the
 /// lines that each frame explains. `lens`: what is believed of the tangent before. `possible`
-/// decides on the third axis. Evidence is by Laplace's approximation (MacKay 2003, ch. 27), next to
-/// no frame at all, which has 0. Bit-identical everywhere; thread-safe.
+/// decides on the third axis. Evidence is by Laplace's approximation (MacKay 2003, ch. 27).
+/// Bit-identical everywhere; thread-safe.
 [[nodiscard]] std::vector<ManhattanFit> find_manhattan(const ManhattanLines& lines,
                                                        const TangentBelief& lens,
                                                        const NormalTest& possible);
 
-/// The turn about the third axis that explains the lines best, and what they gain by it.
-[[nodiscard]] std::pair<ManhattanFrame, double> turned_best(const ManhattanLines& lines,
-                                                            const ManhattanFrame& frame);
+/// The frame turned about its third axis as explains the lines best.
+[[nodiscard]] ManhattanFrame turned_best(const ManhattanLines& lines, const ManhattanFrame& frame);
 
 }  // namespace weft

@@ -20,9 +20,9 @@ struct PictureLine {
 };
 
 /// The straight edges of a picture by OpenCV's line segment detector (von Gioi et al. 2010), pieces
-/// on one line joined, those of 2.2 % of the long side and more, longest first. `luma`: display-encoded, of any size; it is
-/// read at 1280 px at most, and the lines are in pixels of what was given. Ends are rounded to
-/// 1/16 px. Thread-safe.
+/// on one line joined, those of 2.2 % of the long side and more, longest first. `luma`:
+/// display-encoded, of any size; it is read at 1280 px at most, and the lines are in pixels of what
+/// was given. Ends are rounded to 1/16 px. Thread-safe.
 [[nodiscard]] std::vector<PictureLine> picture_lines(ViewU8x1 luma);
 
 /// Those that lie on a surface or along its outline: nine tenths of them inside of the matte, grown

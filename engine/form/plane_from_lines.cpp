@@ -20,9 +20,6 @@ constexpr double kSide = 960;
 constexpr double kLeastPlaneNearness = 0.02;
 constexpr double kDerivativeStep = 1e-6;  // of the numeric derivatives
 constexpr int kPlaneSteps = 40;
-// Long side over focal length of the lenses that shots are made with: fields of view of 18° to
-// 108°.
-constexpr double kLongestLens = 0.32, kWidestLens = 2.75;
 constexpr double kSkew = 0.26;  // deviation of an angle that was drawn as a right one, radians
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;

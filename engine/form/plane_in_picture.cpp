@@ -128,7 +128,7 @@ std::vector<Candidate> candidates_of(const ScenePerspective& scene, const Manhat
             if (!shows(places, frame.axes[2], frame.tangent)) continue;
             add(frame, way.fit.covariance, ln(way.share * kAligned / 3));
             const double narrow = kTurnError * std::sqrt(8 / std::numbers::pi);  // of a right angle
-            add(turned_best(lines, frame).first, way.fit.covariance,
+            add(turned_best(lines, frame), way.fit.covariance,
                 ln(way.share * kTurned / 3 * narrow));
         }
     }
@@ -136,7 +136,7 @@ std::vector<Candidate> candidates_of(const ScenePerspective& scene, const Manhat
         return shows(places, normal, tangent);
     };
     for (const ManhattanFit& fit : find_manhattan(lines, scene.lens, possible))
-        add(fit.frame, fit.covariance, fit.evidence - fit.gain + ln(kOther));
+        add(fit.frame, fit.covariance, fit.before + ln(kOther));
     return out;
 }
 
@@ -210,16 +210,15 @@ ScenePerspective scene_perspective(const std::vector<PictureLine>& lines, Size p
     const ManhattanLines evidence(thinned(lines, picture), picture, 3, kMostSceneLines);
     const auto all = [](const glm::dvec3&, double) { return true; };
     const std::vector<ManhattanFit> fits = find_manhattan(evidence, lens, all);
-    if (fits.empty() || fits.front().evidence < kSceneEvidence) return out;
+    if (fits.empty() || fits.front().evidence() < kSceneEvidence) return out;
     std::vector<double> shares;
     shares.reserve(fits.size() + 1);
     for (const ManhattanFit& fit : fits)
-        shares.push_back(evidence.log_likelihood(fit.frame, 3) + fit.evidence - fit.gain);
+        shares.push_back(evidence.log_likelihood(fit.frame, 3) + fit.before);
     // Directions that are only loosely alike are no scene; they are as free.
     const ManhattanFit& best = fits[static_cast<std::size_t>(
         std::max_element(shares.begin(), shares.end()) - shares.begin())];
-    shares.push_back(evidence.loose_likelihood(best.frame) + best.evidence - best.gain +
-                     ln(kNoScene));
+    shares.push_back(evidence.loose_likelihood(best.frame) + best.before + ln(kNoScene));
     make_shares(shares);
     const double none = shares.back();
     double mean = none * lens.value,

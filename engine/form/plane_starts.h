@@ -11,6 +11,10 @@ namespace weft {
 /// Tangents of half the horizontal field of view: long, common and short lenses.
 inline constexpr std::array kStartTangents{0.5, 0.9, 1.5};
 
+/// Long side over focal length of the lenses that shots are made with: fields of view of 18° to
+/// 108°.
+inline constexpr double kLongestLens = 0.32, kWidestLens = 2.75;
+
 /// Slopes of the nearness over a unit of the picture: none, then two steepnesses in eight
 /// directions each.
 [[nodiscard]] inline std::vector<glm::dvec2> start_slopes() {

@@ -18,10 +18,6 @@ bool seems_to_bend(const FormFinding& moved) {
     return moved.frames >= kFewFrames && !moved.no_parallax && !(moved.fov_deg > 0);
 }
 
-bool may_be_plane(SurfaceKind kind) {
-    return kind != SurfaceKind::kCloth && kind != SurfaceKind::kBody;
-}
-
 TangentBelief lens_before(const MotionLens& lens, Size plate) {
     if (const auto tangent = tangent_of(lens.fov_deg, plate))
         return {*tangent, kGivenTangentDeviation};

@@ -23,8 +23,7 @@ bool bends(const RegistrationPicture& there, const RegistrationPicture& here,
 }  // namespace
 
 RigidPlane::RigidPlane(SurfaceKind kind)
-    : believed_(kind != SurfaceKind::kCloth && kind != SurfaceKind::kBody),
-      said_(kind == SurfaceKind::kPlane) {}
+    : believed_(may_be_plane(kind)), said_(kind == SurfaceKind::kPlane) {}
 
 bool RigidPlane::is_borne_out() const {
     constexpr int kFrames = 6;

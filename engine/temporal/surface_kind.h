@@ -12,4 +12,9 @@ enum class SurfaceKind : std::uint8_t {
     kBody    ///< Bends, and may have joints: parts that move by themselves.
 };
 
+/// Whether a surface may turn out to be a plane.
+[[nodiscard]] constexpr bool may_be_plane(SurfaceKind kind) {
+    return kind != SurfaceKind::kCloth && kind != SurfaceKind::kBody;
+}
+
 }  // namespace weft

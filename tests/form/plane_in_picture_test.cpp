@@ -112,15 +112,25 @@ TEST(PlaneInPicture, AGivenLensIsKept) {
     EXPECT_NEAR(fit->surface.tangent, given, 0.01);
 }
 
-// Nothing below its horizon is a floor's, whatever the lines say.
+// Longer than any that would be found.
+TEST(PlaneInPicture, AGivenTelephotoIsKept) {
+    constexpr double kFocal_px = 2600;
+    const RoomPicture room(kFocal_px, 0.3, 0.4);
+    const double given = 640 / kFocal_px;
+    const auto fit = found_on(room.luma, room.floor, {given, kGivenTangentDeviation});
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->surface.tangent, given, 0.005);
+    EXPECT_LT(degrees_between(normal_of(fit->surface), room.seen({0, 1, 0})), 3);
+}
+
+// Nothing above its horizon is a floor's, whatever the lines say.
 TEST(PlaneInPicture, NoFloorReachesAboveItsHorizon) {
     const RoomPicture room;
     Matte all(RoomPicture::kSize);
     std::fill(all.data(), all.data() + all.size_bytes(), std::uint8_t{255});
     const auto fit = found_on(room.luma, all);
-    if (fit) {
-        EXPECT_GT(degrees_between(normal_of(fit->surface), room.seen({0, 1, 0})), 30);
-    }
+    ASSERT_TRUE(fit);
+    EXPECT_GT(degrees_between(normal_of(fit->surface), room.seen({0, 1, 0})), 30);
 }
 
 TEST(PlaneInPicture, LinesAtAnyAngleShowNone) {

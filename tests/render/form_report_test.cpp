@@ -77,6 +77,9 @@ TEST(FormText, SaysWhyASurfaceIsFlat) {
               "flat, because the camera only turns or zooms, and its lines show no plane; draw its "
               "form by hand");
     EXPECT_EQ(form_json(form)["reason"], "no_parallax");
+    form.lines_asked = false;
+    EXPECT_EQ(form_text(form),
+              "flat, because the camera only turns or zooms; draw its form by hand");
     form = found(Source::kNone, true, 11, 0.4f, 30, 24, 47);
     EXPECT_EQ(form_text(form), "flat, because neither motion nor lines tell its form well enough");
     form.not_sought = FormReport::NotSought::kCorners;
