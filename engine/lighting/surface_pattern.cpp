@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/smooth_step.h"
+#include "engine/lighting/fold_statistics.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/masked_statistics.h"
 #include "engine/lighting/quantile.h"
@@ -34,6 +35,9 @@ constexpr float kMarkedParts = 0.5f;   // of the parts that have marks
 constexpr float kMarkedPart = 0.01f;   // of such a part's pixels
 
 constexpr float kOneGround = 0.5f;  // of the step: the ground's deviation around a mark, at most
+
+constexpr float kFoldWindow = 2.0f;  // times pattern_px
+constexpr int kFoldSurround = 2;     // times that: what is wider is no fold
 
 struct Outliers {
     ImageF1 rest;    // luma over its ground
@@ -124,6 +128,15 @@ bool lie_on_one_ground(const ImageF1& luma, const ImageF1& weight, const ImageF1
     return !deviations.empty() && quantile(deviations, 0.5f) < kOneGround * step;
 }
 
+// How far it varies as folds do, whatever their depth. Light that falls off over the surface has
+// no part in that.
+float folds_of(const ImageF1& luma, const ImageF1& ground, float pattern_px) {
+    const int window_px = static_cast<int>(kFoldWindow * pattern_px) + 1;
+    ImageF1 mean = ground;
+    box_blur(mean, kFoldSurround * window_px);
+    return fold_share(high_pass(luma, ground, mean, kFoldSurround * window_px), ground, window_px);
+}
+
 }  // namespace
 
 SurfacePattern surface_pattern(const ImageF1& luma, const ImageF1& weight, float pattern_px) {
@@ -144,6 +157,7 @@ SurfacePattern surface_pattern(const ImageF1& luma, const ImageF1& weight, float
     }
     const ImageF1 base = blurred(weighted(luma, out.ground), out.ground, sigma_px).value;
     out.presence = smooth_step(deviation_between(base, luma, out.ground), kPlain, kPatterned);
+    if (out.presence > 0) out.presence *= 1 - folds_of(luma, out.ground, pattern_px);
     return out;
 }
 

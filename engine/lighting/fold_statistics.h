@@ -1,0 +1,14 @@
+#pragma once
+// Whether a variation has the statistics of folds.
+
+#include "engine/core/image.h"
+
+namespace weft {
+
+/// 0 to 1: how far `plane` (ln luma of one cause, H×W) varies as folds do and paint does not: in
+/// lengths of folds, a share of `window_px`; all over the surface, where paints meet at edges;
+/// without two values; and in one direction at each place, over several widths, where soft paints,
+/// clouds and stains have none. `weight`: 0 to 1; the rim does not count. Thread-safe.
+[[nodiscard]] float fold_share(const ImageF1& plane, const ImageF1& weight, int window_px);
+
+}  // namespace weft
