@@ -10,20 +10,26 @@ namespace weft {
 namespace {
 
 constexpr float kInside = 0.5f;  // of the weight: the rim shows other things
-// The deviation over the slopes' root mean square. In pixels: edges cannot be told from slopes up
-// to kUnresolved, and it counts as paint.
-constexpr float kUnresolved = 1.9f, kResolved = 2.15f;
-// Of the window: up to kFineColour it is paint, from kWideColour on it may be folds.
-constexpr float kFineColour = 0.12f, kWideColour = 0.16f;
-// The slopes' squared mean over their mean square: up to kAtEdges they lie at the edges of paints,
-// from kAllOver on they are all over the surface (noise: 0.79).
-constexpr float kAtEdges = 0.5f, kAllOver = 0.56f;
+// The coherence of the structure tensor (Bigün & Granlund 1987) over kWidths widths of the
+// variation: below kNoDirection it is no fold. Measured on film: rust, marble, plaster, sand and
+// clouds 0.25 to 0.45; a bedspread 0.75, a T-shirt 0.93, a rug that waves 0.65.
+constexpr float kNoDirection = 0.42f, kDirection = 0.55f, kWidths = 2.0f;
+// The clearer the direction, the less else has to speak for folds: limits with little of it, below
+// kFaintDirection, and with much, from kClearDirection on.
+constexpr float kFaintDirection = 0.6f, kClearDirection = 0.8f;
+struct Limits {
+    // The deviation over the slopes' root mean square, in pixels: edges cannot be told from slopes
+    // up to `unresolved`, and it counts as paint.
+    float unresolved = 1.9f, resolved = 2.15f;
+    // The same as a share of the window: up to `fine` it is paint, from `wide` on it may be folds.
+    float fine = 0.12f, wide = 0.16f;
+    // The slopes' squared mean over their mean square: up to `at_edges` they lie at the edges of
+    // paints, from `all_over` on they are all over the surface (noise: 0.79).
+    float at_edges = 0.5f, all_over = 0.56f;
+};
+constexpr Limits kFaint{}, kClear{1.3f, 1.5f, 0.12f, 0.16f, 0.3f, 0.38f};
 // (skewness² + 1) / kurtosis, Sarle's coefficient: two paints have 1, a normal distribution 1/3.
 constexpr float kOneMode = 0.75f, kTwoModes = 0.85f;
-// The coherence of the structure tensor (Bigün & Granlund 1987) over kWidths widths of the
-// variation. Measured: rust, marble, plaster, sand and clouds 0.25 to 0.45; a bedspread 0.75, a
-// T-shirt 0.93, a rug that waves 0.65.
-constexpr float kNoDirection = 0.42f, kOneDirection = 0.55f, kWidths = 2.0f;
 constexpr float kSmooth = 1.0f;  // pixels: slopes of noise have no direction
 
 // The powers of a plane's differences from its mean, and of its slopes, summed up.
@@ -97,6 +103,21 @@ float coherence(const ImageF1& plane, const ImageF1& weight, float sigma_px) {
     return all > 0 ? static_cast<float>(directed / all) : 0.0f;
 }
 
+Limits mixed(float clear) {
+    const auto mix = [clear](float faint_one, float clear_one) {
+        return faint_one + clear * (clear_one - faint_one);
+    };
+    return {mix(kFaint.unresolved, kClear.unresolved), mix(kFaint.resolved, kClear.resolved),
+            mix(kFaint.fine, kClear.fine),             mix(kFaint.wide, kClear.wide),
+            mix(kFaint.at_edges, kClear.at_edges),     mix(kFaint.all_over, kClear.all_over)};
+}
+
+float share_within(const Limits& limits, float wide, float all_over, int window_px) {
+    return smooth_step(wide, limits.unresolved, limits.resolved) *
+           smooth_step(wide / static_cast<float>(window_px), limits.fine, limits.wide) *
+           smooth_step(all_over, limits.at_edges, limits.all_over);
+}
+
 }  // namespace
 
 float fold_share(const ImageF1& plane, const ImageF1& weight, int window_px) {
@@ -107,14 +128,13 @@ float fold_share(const ImageF1& plane, const ImageF1& weight, int window_px) {
     const double all_over = m.slope * m.slope / (n * m.square_slope);
     const double skewness = m.third / n / (variance * std::sqrt(variance));
     const double modes = (skewness * skewness + 1) * variance * variance / (m.fourth / n);
-    const float share =
-        smooth_step(wide, kUnresolved, kResolved) *
-        smooth_step(wide / static_cast<float>(window_px), kFineColour, kWideColour) *
-        smooth_step(static_cast<float>(all_over), kAtEdges, kAllOver) *
-        (1 - smooth_step(static_cast<float>(modes), kOneMode, kTwoModes));
-    if (!(share > 0)) return 0;
-    return share *
-           smooth_step(coherence(plane, weight, kWidths * wide), kNoDirection, kOneDirection);
+    const float modal = 1 - smooth_step(static_cast<float>(modes), kOneMode, kTwoModes);
+    // What fails with much direction need not have it measured.
+    if (!(modal * share_within(kClear, wide, static_cast<float>(all_over), window_px) > 0)) return 0;
+    const float directed = coherence(plane, weight, kWidths * wide);
+    const Limits limits = mixed(smooth_step(directed, kFaintDirection, kClearDirection));
+    return modal * smooth_step(directed, kNoDirection, kDirection) *
+           share_within(limits, wide, static_cast<float>(all_over), window_px);
 }
 
 }  // namespace weft

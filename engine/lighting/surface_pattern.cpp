@@ -26,6 +26,9 @@ constexpr float kDepthShare = 0.8f;    // the depth of marks is this quantile
 constexpr float kLeastDepth = 2.0f;    // times the step that tells them from the ground
 constexpr float kShallow = 0.5f;       // of their depth: no more than …
 constexpr float kMostShallow = 0.5f;   // … this share is so shallow
+// Creases may have one depth, too, but are shallower than ink, or have all values between theirs
+// and the ground's: (skewness² + 1) / kurtosis, Sarle's coefficient, of what is beyond the ground.
+constexpr float kInk = 1.0f, kTwoValues = 0.8f;
 constexpr float kFewest = 0.01f;       // of the surface
 constexpr float kCellSigmas = 8.0f;    // the side of a part of the surface, in blurs
 constexpr int kLeastCell = 8;          // pixels
@@ -59,6 +62,22 @@ Outliers outliers_of(const ImageF1& luma, const ImageF1& weight, float sigma_px)
     return out;
 }
 
+// Sarle's coefficient of what is farther than the ground on one side.
+float modes_of(const Outliers& found, const ImageF1& weight, float side) {
+    double n = 0, sum = 0, second = 0, third = 0, fourth = 0;
+    const auto for_each = [&](const auto& visit) {
+        for (std::size_t i = 0; i < weight.size_bytes() / sizeof(float); ++i)
+            if (weight.data()[i] > kInsideWeight) visit(std::max(0.0f, side * found.rest.data()[i]));
+    };
+    for_each([&](double v) { n += 1, sum += v; });
+    for_each([&](double v) {
+        const double d = v - sum / n;
+        second += d * d, third += d * d * d, fourth += d * d * d * d;
+    });
+    if (!(second > 0)) return 0;
+    return static_cast<float>((third * third / second + second * second / n) / fourth);
+}
+
 // Whether the outliers on one side, +1 or −1, have one depth.
 bool have_one_depth(const Outliers& found, const ImageF1& weight, float side) {
     std::vector<float> depths;
@@ -73,7 +92,8 @@ bool have_one_depth(const Outliers& found, const ImageF1& weight, float side) {
     const float depth = quantile(depths, kDepthShare);
     const auto shallow =
         std::count_if(depths.begin(), depths.end(), [&](float d) { return d < kShallow * depth; });
-    return depth > kLeastDepth * found.step && static_cast<float>(shallow) < kMostShallow * count;
+    return depth > kLeastDepth * found.step && static_cast<float>(shallow) < kMostShallow * count &&
+           (depth > kInk || modes_of(found, weight, side) > kTwoValues);
 }
 
 // Whether they are all over the surface.
