@@ -200,7 +200,7 @@ PrintedMarks ReflectanceGatherer::usual_marks() const {
     return {often(&PrintedMarks::dark), often(&PrintedMarks::light)};
 }
 
-// What looks like sheen on half of the frames is sheen, unless the surface turns and it stays.
+// What looks like sheen on a quarter of the frames is sheen, unless the surface turns and it stays.
 float ReflectanceGatherer::sheen_of(const Recti& box, const ImageF1& paint,
                                     const ImageF1& known) const {
     std::vector<float> sheens;
@@ -219,7 +219,7 @@ float ReflectanceGatherer::sheen_of(const Recti& box, const ImageF1& paint,
         }
         change.add(usual, part.paint, both);
     }
-    const float sheen = quantile_at(sheens, kMiddle);
+    const float sheen = quantile_at(sheens, kUpperQuarter);
     return sheen > 0 ? sheen * (1 - painted_on(most_turned(lies), change.share())) : 0.0f;
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kFitStep = 4;  // pixels between those that are fitted
 // Of what a change with direction would be: less is none, more may be one.
-constexpr float kUnchanged = 0.35f, kMayChange = 0.7f;
-// sin² of the turn: 8° are not told from errors of motion, 15° are.
-constexpr float kLeastTurn = 0.02f, kTurn = 0.065f;
+constexpr float kUnchanged = 0.1f, kMayChange = 0.25f;
+// sin² of the turn: 15° may be errors of motion, 25° are none.
+constexpr float kLeastTurn = 0.065f, kTurn = 0.18f;
 constexpr double kLieRidge = 1e-3;  // of the weights, in pixels²: a line of pixels tells no turn
 
 // sin² of the turn from one lie to another.

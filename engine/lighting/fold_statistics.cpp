@@ -10,10 +10,12 @@ namespace weft {
 namespace {
 
 constexpr float kInside = 0.5f;  // of the weight: the rim shows other things
-// The coherence of the structure tensor (Bigün & Granlund 1987) over kWidths widths of the
-// variation: below kNoDirection it is no fold. Measured on film: rust, marble, plaster, sand and
-// clouds 0.25 to 0.45; a bedspread 0.75, a T-shirt 0.93, a rug that waves 0.65.
-constexpr float kNoDirection = 0.42f, kDirection = 0.55f, kWidths = 2.0f;
+// The coherence of the structure tensor (Bigün & Granlund 1987) over kWidths widths of what a blur
+// of kSmooth windows leaves, since slopes of noise have no direction: below kNoDirection it is no
+// fold. Measured on film: clouds, stains, a goat 0.2 to 0.4; a rug that waves, a bedspread, a wall
+// whose lamps have two colours 0.7 to 0.8.
+constexpr float kNoDirection = 0.45f, kDirection = 0.6f, kWidths = 2.0f;
+constexpr float kSmooth = 0.25f, kLeastSmooth = 1.0f;  // kLeastSmooth in pixels
 // The clearer the direction, the less else has to speak for folds: limits with little of it, below
 // kFaintDirection, and with much, from kClearDirection on.
 constexpr float kFaintDirection = 0.6f, kClearDirection = 0.8f;
@@ -30,7 +32,6 @@ struct Limits {
 constexpr Limits kFaint{}, kClear{1.3f, 1.5f, 0.12f, 0.16f, 0.3f, 0.38f};
 // (skewness² + 1) / kurtosis, Sarle's coefficient: two paints have 1, a normal distribution 1/3.
 constexpr float kOneMode = 0.75f, kTwoModes = 0.85f;
-constexpr float kSmooth = 1.0f;  // pixels: slopes of noise have no direction
 
 // The powers of a plane's differences from its mean, and of its slopes, summed up.
 struct FoldMoments {
@@ -78,13 +79,20 @@ FoldMoments moments_inside(const ImageF1& plane, const ImageF1& weight) {
     return m;
 }
 
-// How far the slopes have one direction within `sigma_px`, 0 to 1, where there are slopes.
-float coherence(const ImageF1& plane, const ImageF1& weight, float sigma_px) {
+// The deviation over the slopes' root mean square, pixels.
+float width_of(const FoldMoments& m) {
+    return static_cast<float>(std::sqrt(m.second / std::max(m.square_slope, 1e-12)));
+}
+
+// How far the slopes have one direction, 0 to 1, where there are slopes.
+float coherence(const ImageF1& plane, const ImageF1& weight, int window_px) {
+    const float smooth_px = std::max(kLeastSmooth, kSmooth * static_cast<float>(window_px));
     ImageF1 smooth = weighted(plane, weight), total = weight;
-    gaussian_blur(smooth, kSmooth);
-    gaussian_blur(total, kSmooth);
+    gaussian_blur(smooth, smooth_px);
+    gaussian_blur(total, smooth_px);
     for (std::size_t i = 0; i < smooth.size_bytes() / sizeof(float); ++i)
         smooth.data()[i] /= std::max(total.data()[i], kLeastWeight);
+    const float sigma_px = kWidths * width_of(moments_inside(smooth, weight));
     ImageF1 xx(plane.size()), xy(plane.size()), yy(plane.size());
     for_each_inside(weight, [&](int x, int y) {
         const Slope s = slope_at(smooth, x, y);
@@ -107,9 +115,12 @@ Limits mixed(float clear) {
     const auto mix = [clear](float faint_one, float clear_one) {
         return faint_one + clear * (clear_one - faint_one);
     };
-    return {mix(kFaint.unresolved, kClear.unresolved), mix(kFaint.resolved, kClear.resolved),
-            mix(kFaint.fine, kClear.fine),             mix(kFaint.wide, kClear.wide),
-            mix(kFaint.at_edges, kClear.at_edges),     mix(kFaint.all_over, kClear.all_over)};
+    return {mix(kFaint.unresolved, kClear.unresolved),
+            mix(kFaint.resolved, kClear.resolved),
+            mix(kFaint.fine, kClear.fine),
+            mix(kFaint.wide, kClear.wide),
+            mix(kFaint.at_edges, kClear.at_edges),
+            mix(kFaint.all_over, kClear.all_over)};
 }
 
 float share_within(const Limits& limits, float wide, float all_over, int window_px) {
@@ -124,14 +135,15 @@ float fold_share(const ImageF1& plane, const ImageF1& weight, int window_px) {
     const FoldMoments m = moments_inside(plane, weight);
     if (!(m.second > 0) || !(m.square_slope > 0)) return 0;
     const double n = m.count, variance = m.second / n;
-    const auto wide = static_cast<float>(std::sqrt(m.second / m.square_slope));
+    const float wide = width_of(m);
     const double all_over = m.slope * m.slope / (n * m.square_slope);
     const double skewness = m.third / n / (variance * std::sqrt(variance));
     const double modes = (skewness * skewness + 1) * variance * variance / (m.fourth / n);
     const float modal = 1 - smooth_step(static_cast<float>(modes), kOneMode, kTwoModes);
     // What fails with much direction need not have it measured.
-    if (!(modal * share_within(kClear, wide, static_cast<float>(all_over), window_px) > 0)) return 0;
-    const float directed = coherence(plane, weight, kWidths * wide);
+    if (!(modal * share_within(kClear, wide, static_cast<float>(all_over), window_px) > 0))
+        return 0;
+    const float directed = coherence(plane, weight, window_px);
     const Limits limits = mixed(smooth_step(directed, kFaintDirection, kClearDirection));
     return modal * smooth_step(directed, kNoDirection, kDirection) *
            share_within(limits, wide, static_cast<float>(all_over), window_px);

@@ -20,12 +20,12 @@ namespace {
 constexpr float kPlain = 0.08f, kPatterned = 0.16f;
 
 constexpr int kGroundRounds = 3;
-constexpr float kLeastStep = 0.3f;     // ln units: fainter marks are no marks
-constexpr float kDeviations = 3.0f;    // of the ground: what is beyond is not of it
-constexpr float kDepthShare = 0.8f;    // the depth of marks is this quantile
-constexpr float kLeastDepth = 2.0f;    // times the step that tells them from the ground
-constexpr float kShallow = 0.5f;       // of their depth: no more than …
-constexpr float kMostShallow = 0.5f;   // … this share is so shallow
+constexpr float kLeastStep = 0.3f;    // ln units: fainter marks are no marks
+constexpr float kDeviations = 3.0f;   // of the ground: what is beyond is not of it
+constexpr float kDepthShare = 0.8f;   // the depth of marks is this quantile
+constexpr float kLeastDepth = 2.0f;   // times the step that tells them from the ground
+constexpr float kShallow = 0.5f;      // of their depth: no more than …
+constexpr float kMostShallow = 0.5f;  // … this share is so shallow
 // Creases may have one depth, too, but are shallower than ink, or have all values between theirs
 // and the ground's: (skewness² + 1) / kurtosis, Sarle's coefficient, of what is beyond the ground.
 constexpr float kInk = 1.0f, kTwoValues = 0.8f;
@@ -67,7 +67,8 @@ float modes_of(const Outliers& found, const ImageF1& weight, float side) {
     double n = 0, sum = 0, second = 0, third = 0, fourth = 0;
     const auto for_each = [&](const auto& visit) {
         for (std::size_t i = 0; i < weight.size_bytes() / sizeof(float); ++i)
-            if (weight.data()[i] > kInsideWeight) visit(std::max(0.0f, side * found.rest.data()[i]));
+            if (weight.data()[i] > kInsideWeight)
+                visit(std::max(0.0f, side * found.rest.data()[i]));
     };
     for_each([&](double v) { n += 1, sum += v; });
     for_each([&](double v) {

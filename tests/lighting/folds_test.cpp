@@ -157,8 +157,8 @@ Shading light_on_strokes(float step) {
         };
         const ImageF3 plate = cloth([&](int x, int y) {
             const auto p = before(static_cast<float>(x), static_cast<float>(y));
-            return brown(fold(static_cast<int>(std::lround(p[0])),
-                              static_cast<int>(std::lround(p[1]))));
+            return brown(
+                fold(static_cast<int>(std::lround(p[0])), static_cast<int>(std::lround(p[1]))));
         });
         const SurfaceSample sample = light_sample(plate, matte, options);
         ImageF2 ref_from_cur(sample.box.size());
