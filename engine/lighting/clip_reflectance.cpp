@@ -9,6 +9,7 @@
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
+#include "engine/lighting/masked_statistics.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/pattern_period.h"
 
@@ -24,6 +25,8 @@ constexpr double kRemainsOfPattern = 2.0, kMoreThanPattern = 3.0;
 constexpr int kLevelRounds = 3, kLevelStep = 3;  // rounds, and pixels between samples
 // ln light below the brightest frame's: what a fade leaves of the pattern is mostly noise.
 constexpr float kFaded = 3.0f;
+// ln units: steps of the still light below are noise of its frames.
+constexpr float kStillNoise = 0.03f;
 
 // Quantiles, as a share of the values below.
 using Share = std::array<std::ptrdiff_t, 2>;
@@ -269,6 +272,7 @@ ClipReflectance ReflectanceGatherer::finish() {
         out.value = difference_of(still.luma, light, out.confidence);
     }
     out.light = difference_of(still.luma, out.value, out.confidence);
+    out.light = without_noise(out.light, out.confidence, kStillNoise);
     // What moves has been told from paint by that; the light that never does has not.
     const ImageF1 decided = decided_light(still);
     const ImageF1 undecided = difference_of(out.light, decided, out.confidence);

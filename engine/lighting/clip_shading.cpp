@@ -5,7 +5,6 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
-#include "engine/lighting/bilateral_grid.h"
 #include "engine/lighting/clip_reflectance.h"
 #include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
@@ -21,8 +20,7 @@ constexpr float kNoneShown = 0.35f,
                 kAllShown = 0.7f;    // share of the reflectance's detail that shows
 constexpr float kMinEnergy = 1e-5f;  // ln² of detail; below this it is noise
 constexpr float kOutlier = 3.0f;     // deviations of the detail: larger residuals are light
-constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
-constexpr int kFineRollings = 2;
+constexpr float kFineRange = 0.08f;  // ln units
 constexpr float kShown = 0.5f;
 constexpr std::int64_t kDoubtfulOneIn = 100;  // one in this many places may be in doubt
 
@@ -121,16 +119,6 @@ ImageF1 detail_shown(const SurfaceSample& s, const Seen& seen) {
     return share;
 }
 
-// Removes noise, and what small errors of the motion leave of the pattern. The light's own edges
-// stay.
-ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
-    const ImageF1 values = weighted(luma, weight);
-    ImageF1 guide = blurred(values, weight, kFineSigma).value;
-    for (int i = 0; i < kFineRollings; ++i)
-        guide = joint_bilateral(values, weight, guide, {kFineSpace, kFineRange});
-    return guide;
-}
-
 // True if almost no place needs the estimate from the frame alone, which costs more than everything
 // else.
 bool shows_all(const ImageF1& weight, const ImageF1& share) {
@@ -178,7 +166,8 @@ Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflect
     ImageF1 moving = sample.luma;
     for (std::size_t i = 0; i < moving.size_bytes() / sizeof(float); ++i)
         moving.data()[i] -= seen.value.data()[i] + seen.light.data()[i];
-    ImageF1 light = without_noise(moving, unmarked(sample, seen.known, reflectance.marks, options));
+    ImageF1 light =
+        without_noise(moving, unmarked(sample, seen.known, reflectance.marks, options), kFineRange);
     for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i)
         light.data()[i] += seen.light.data()[i];
     ImageF1 doubt = seen.doubt;

@@ -15,7 +15,7 @@ constexpr float kInside = 0.5f;  // of the weight: the rim shows other things
 // fold. Measured on film: clouds, stains, a goat 0.2 to 0.4; a rug that waves, a bedspread, a wall
 // whose lamps have two colours 0.7 to 0.8.
 constexpr float kNoDirection = 0.45f, kDirection = 0.6f, kWidths = 2.0f;
-constexpr float kSmooth = 0.25f, kLeastSmooth = 1.0f;  // kLeastSmooth in pixels
+constexpr float kSmooth = 0.25f, kLeastSmooth = 2.0f;  // kLeastSmooth in pixels
 // The clearer the direction, the less else has to speak for folds: limits with little of it, below
 // kFaintDirection, and with much, from kClearDirection on.
 constexpr float kFaintDirection = 0.6f, kClearDirection = 0.8f;
