@@ -11,11 +11,10 @@ namespace {
 
 constexpr float kInside = 0.5f;  // of the weight: the rim shows other things
 // The coherence of the structure tensor (Bigün & Granlund 1987) over kWidths widths of what a blur
-// of kSmooth windows leaves, since slopes of noise have no direction: below kNoDirection it is no
+// leaves, since slopes of noise have no direction: below kNoDirection it is no
 // fold. Measured on film: clouds, stains, a goat 0.2 to 0.4; a rug that waves, a bedspread, a wall
 // whose lamps have two colours 0.7 to 0.8.
 constexpr float kNoDirection = 0.45f, kDirection = 0.6f, kWidths = 2.0f;
-constexpr float kSmooth = 0.25f, kLeastSmooth = 2.0f;  // kLeastSmooth in pixels
 // The clearer the direction, the less else has to speak for folds: limits with little of it, below
 // kFaintDirection, and with much, from kClearDirection on.
 constexpr float kFaintDirection = 0.6f, kClearDirection = 0.8f;
@@ -85,8 +84,7 @@ float width_of(const FoldMoments& m) {
 }
 
 // How far the slopes have one direction, 0 to 1, where there are slopes.
-float coherence(const ImageF1& plane, const ImageF1& weight, int window_px) {
-    const float smooth_px = std::max(kLeastSmooth, kSmooth * static_cast<float>(window_px));
+float coherence(const ImageF1& plane, const ImageF1& weight, float smooth_px) {
     ImageF1 smooth = weighted(plane, weight), total = weight;
     gaussian_blur(smooth, smooth_px);
     gaussian_blur(total, smooth_px);
@@ -131,7 +129,7 @@ float share_within(const Limits& limits, float wide, float all_over, int window_
 
 }  // namespace
 
-float fold_share(const ImageF1& plane, const ImageF1& weight, int window_px) {
+float fold_share(const ImageF1& plane, const ImageF1& weight, int window_px, float smooth_px) {
     const FoldMoments m = moments_inside(plane, weight);
     if (!(m.second > 0) || !(m.square_slope > 0)) return 0;
     const double n = m.count, variance = m.second / n;
@@ -143,7 +141,7 @@ float fold_share(const ImageF1& plane, const ImageF1& weight, int window_px) {
     // What fails with much direction need not have it measured.
     if (!(modal * share_within(kClear, wide, static_cast<float>(all_over), window_px) > 0))
         return 0;
-    const float directed = coherence(plane, weight, window_px);
+    const float directed = coherence(plane, weight, smooth_px);
     const Limits limits = mixed(smooth_step(directed, kFaintDirection, kClearDirection));
     return modal * smooth_step(directed, kNoDirection, kDirection) *
            share_within(limits, wide, static_cast<float>(all_over), window_px);

@@ -30,6 +30,10 @@ constexpr double kExplainsNothing = 0.2, kExplains = 0.5;
 // kPaint on it is painted areas.
 constexpr double kTint = 0.1, kPaint = 0.25;
 
+// Chromaticities are noisy: the blur before the direction of folds is measured, of the window, and
+// in pixels.
+constexpr float kSmooth = 0.25f, kLeastSmooth = 2.0f;
+
 struct Standard {
     float mean = 0;
     float inverse_deviation = 0;
@@ -203,7 +207,8 @@ ColourCues colour_cues(const SurfaceSample& sample, int window_px, const Dayligh
     const float mean = standard_of(explained, sample.weight).mean;
     // Pile and silk shift their colour with direction, so that it goes with the folds' lightness as
     // paint's would.
-    const float sheen = fold_share(explained, sample.weight, window_px);
+    const float sheen = fold_share(explained, sample.weight, window_px,
+                                   std::max(kLeastSmooth, kSmooth * static_cast<float>(window_px)));
     for (std::size_t i = 0; i < explained.size_bytes() / sizeof(float); ++i) {
         float& e = explained.data()[i];
         e = sample.weight.data()[i] > 0 ? e - mean : 0.0f;

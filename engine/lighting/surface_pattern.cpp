@@ -39,6 +39,7 @@ constexpr float kMarkedPart = 0.01f;   // of such a part's pixels
 
 constexpr float kOneGround = 0.5f;  // of the step: the ground's deviation around a mark, at most
 
+constexpr float kFoldSmooth = 1.0f;  // pixels: more would take fine patterns away
 constexpr float kFoldWindow = 2.0f;  // times pattern_px
 constexpr int kFoldSurround = 2;     // times that: what is wider is no fold
 
@@ -155,7 +156,8 @@ float folds_of(const ImageF1& luma, const ImageF1& ground, float pattern_px) {
     const int window_px = static_cast<int>(kFoldWindow * pattern_px) + 1;
     ImageF1 mean = ground;
     box_blur(mean, kFoldSurround * window_px);
-    return fold_share(high_pass(luma, ground, mean, kFoldSurround * window_px), ground, window_px);
+    return fold_share(high_pass(luma, ground, mean, kFoldSurround * window_px), ground, window_px,
+                      kFoldSmooth);
 }
 
 }  // namespace
