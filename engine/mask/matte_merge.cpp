@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace weft {
 namespace {
 
 constexpr float kAgreedOdds = 4;  // log odds where both estimates agree
+// The weight of a walk where it has not followed what it sees from its keyframe; elsewhere it is 1.
+constexpr float kGuessed = 0.03f;
 
 // Bounds of where either estimate is inside.
 Recti joint_bounds(ViewF1 before, ViewF1 after) {
@@ -30,6 +33,22 @@ float known(float confidence) {
     return std::max(confidence, 1e-3f);
 }
 
+// How far a walk knows each pixel, kGuessed to 1, in the mean near by: single pixels of measured
+// motion fail anywhere. Empty: it does not tell.
+ImageF1 knowledge_of(const Matte& followed) {
+    ImageF1 known(followed.size());
+    if (followed.empty()) return known;
+    constexpr int kNear_px = 7;
+    for (int y = 0; y < known.height(); ++y) {
+        for (int x = 0; x < known.width(); ++x)
+            known.at(x, y) = followed.at(x, y) != 0 ? 1 : kGuessed;
+    }
+    cv::Mat pixels(known.height(), known.width(), CV_32F, known.data(),
+                   static_cast<std::size_t>(known.stride()) * sizeof(float));
+    cv::blur(pixels, pixels, {kNear_px, kNear_px}, {-1, -1}, cv::BORDER_REPLICATE);
+    return known;
+}
+
 // The weight of the later estimate by pixel. What was confirmed is as certain as since then.
 ImageF1 shares_of(const MatteEstimate& from_before, const MatteEstimate& from_after,
                   const MergePlace& place, Size size) {
@@ -38,26 +57,32 @@ ImageF1 shares_of(const MatteEstimate& from_before, const MatteEstimate& from_af
         const bool confirmed = !e.since.empty() && e.since.at(x, y) != kNeverConfirmed;
         return known(confirmed ? e.since_confidence : e.confidence);
     };
+    const ImageF1 before_known = knowledge_of(from_before.followed);
+    const ImageF1 after_known = knowledge_of(from_after.followed);
+    const bool told = !before_known.empty() && !after_known.empty();
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
             const float position = shares.at(x, y);
             // Squared: a walk with half the confidence is more than twice as likely to be wrong.
             const float before = confidence(from_before, x, y);
             const float after = confidence(from_after, x, y);
-            const float before_weight = (1 - position) * before * before;
-            const float after_weight = position * after * after;
+            float before_weight = (1 - position) * before * before;
+            float after_weight = position * after * after;
+            if (told) {
+                before_weight *= before_known.at(x, y);
+                after_weight *= after_known.at(x, y);
+            }
             shares.at(x, y) = after_weight / (before_weight + after_weight);
         }
     }
     return shares;
 }
 
-// Without confirmed parts it is the same everywhere.
-float usual_share(const ImageF1& shares, bool confirmed) {
-    if (!confirmed) return shares.at(0, 0);
-    const std::size_t pixels = shares.size_bytes() / sizeof(float);
-    const double sum = std::accumulate(shares.data(), shares.data() + pixels, 0.0);
-    return static_cast<float>(sum / static_cast<double>(pixels));
+float mean_share(ViewF1 shares) {
+    double sum = 0;
+    for (int y = 0; y < shares.height(); ++y)
+        sum = std::accumulate(shares.row(y), shares.row(y) + shares.width(), sum);
+    return static_cast<float>(sum / (double{1} * shares.width() * shares.height()));
 }
 
 // Two estimates of a shape, combined over an area. `shares` are the later one's weights.
@@ -137,15 +162,16 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
     const RefineScale scale(frame.size());
     const ImageF1 phi_before = signed_distance(inside_of(from_before.matte), scale.limit_px);
     const ImageF1 phi_after = signed_distance(inside_of(from_after.matte), scale.limit_px);
-    const float share = usual_share(shares, confirmed);
+    const Recti bounds = joint_bounds(phi_before, phi_after);
+    const int margin = static_cast<int>(scale.band_px) + scale.window_half_px + 4;
+    const Recti frame_area = rect_of(frame.size());
+    const Recti area = bounds.empty() ? frame_area : bounds.grown(margin).intersected(frame_area);
+    const ViewF1 shares_here = shares.view().crop(area);
+    const float share = mean_share(shares_here);
     MatteEstimate merged{Matte(frame.size()), (1 - share) * known(from_before.confidence) +
                                                   share * known(from_after.confidence)};
-    const Recti bounds = joint_bounds(phi_before, phi_after);
     if (bounds.empty()) return merged;
-    const int margin = static_cast<int>(scale.band_px) + scale.window_half_px + 4;
-    const Recti area = bounds.grown(margin).intersected(rect_of(frame.size()));
 
-    const ViewF1 shares_here = shares.view().crop(area);
     const JointShape joint(phi_before.view().crop(area), phi_after.view().crop(area), shares_here,
                            scale.band_px);
     const ViewU8x3 part = frame.crop(area);

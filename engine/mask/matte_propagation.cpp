@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "engine/mask/copy_of.h"
 #include "engine/mask/departure.h"
 #include "engine/mask/flat_fills.h"
+#include "engine/mask/followed.h"
 #include "engine/mask/growth_evidence.h"
 #include "engine/mask/hidden_part.h"
 #include "engine/mask/key_places.h"
@@ -21,6 +23,7 @@
 #include "engine/mask/motion_sides.h"
 #include "engine/mask/nearest_pixel.h"
 #include "engine/mask/newcomers.h"
+#include "engine/mask/part_return.h"
 #include "engine/mask/resting_scene.h"
 #include "engine/mask/shape_transport.h"
 #include "engine/mask/signed_distance.h"
@@ -82,18 +85,21 @@ struct MatteWalker::State {
     FlatFills fills;
     Departure departure;
     MotionReturn lost;
+    PartReturn part_lost;
     RestingScene scene;
     MotionSides sides = {};
     Uncovered uncovered = {};
     Newcomers newcomers = {};
     LeftBehind left_behind = {};
     ConfirmedPlaces confirmed = {};
-    float since_confidence = 1;  ///< Of what was confirmed last.
-    bool soft_edges = false;     ///< Whether key_softness is anything but 0.
+    std::optional<Followed> followed = {};  ///< Where walks are merged.
+    float since_confidence = 1;             ///< Of what was confirmed last.
+    bool soft_edges = false;                ///< Whether key_softness is anything but 0.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
     void take_back(ViewU8x3 now, const FlowField& prev_from_cur, ImageF1& distance, Matte& matte);
+    [[nodiscard]] MatteEstimate estimate(Matte matte) const;
     void take_whole_fills(ViewU8x3 now, ImageF1& distance, Matte& matte);
     void take_as_scene(ViewU8x3 now, const FlowField& prev_from_cur, const Matte& covered,
                        ImageF1& distance, Matte& matte);
@@ -134,6 +140,7 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            FlatFills(frame, phi),
                                            Departure(phi),
                                            MotionReturn(phi),
+                                           PartReturn(phi),
                                            RestingScene(frame, known)});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
@@ -142,6 +149,7 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
         std::any_of(softness.data(), softness.data() + softness.size_bytes() / sizeof(float),
                     [](float half_width) { return half_width > 0; });
     state_->clearance_px = clearance_of(phi, state_->key_softness);
+    if (options.merged) state_->followed.emplace(frame.size());
 }
 
 MatteWalker::MatteWalker(const MatteWalker& other)
@@ -232,11 +240,14 @@ Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, Vi
 // place of the little that was found.
 void MatteWalker::State::take_back(ViewU8x3 now, const FlowField& prev_from_cur, ImageF1& distance,
                                    Matte& matte) {
+    const MotionReturnInput evidence{now,     distance, prev_from_cur, departure.departs(),
+                                     palette, unit_px()};
     Matte returned = hidden.returned(now, distance);
-    const bool whole = returned.empty();
-    if (whole) {
-        returned =
-            lost.returned({now, distance, prev_from_cur, departure.departs(), palette, unit_px()});
+    bool whole = returned.empty();
+    if (whole) returned = lost.returned(evidence);
+    if (returned.empty()) {
+        returned = part_lost.returned(evidence);
+        whole = false;
     }
     if (returned.empty()) return;
     constexpr float kOfFound = 0.25f;  // after it had been lost altogether
@@ -276,6 +287,11 @@ void MatteWalker::State::take_as_scene(ViewU8x3 now, const FlowField& prev_from_
     plate.forget(wrong);
     departure.correct(wrong, inside);
     take_over(inside, scale.limit_px, distance, matte);
+}
+
+MatteEstimate MatteWalker::State::estimate(Matte matte) const {
+    return {std::move(matte), confidence, confirmed.since(), since_confidence,
+            followed ? followed->known() : Matte()};
 }
 
 // What was uncovered and taken for surface goes out when it is left behind, and an island that was
@@ -321,7 +337,8 @@ MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
     s.last = with_confirmed(std::move(s.last), part);
     s.confirmed.add(part.area);
     s.since_confidence = 1;
-    return {s.last, s.confidence, s.confirmed.since(), 1};
+    if (s.followed) s.followed->know(part.area);
+    return s.estimate(s.last);
 }
 
 bool MatteWalker::has_soft_edges() const {
@@ -335,10 +352,11 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
         covered.empty() ? FlowField() : motion_behind(measured, covered, s.phi, s.scale.band_px);
     const FlowField& prev_from_cur = covered.empty() ? measured : behind;
     const ImageF2 background = background_motion(s.phi, prev_from_cur, s.scale.band_px);
-    MatteEstimate estimate{Matte(frame.size()), 0};
+    Matte matte(frame.size());
     const Recti area =
         working_area(transported_bounds(s.phi, prev_from_cur), s.scale, frame.size());
     ImageF1 phi(frame.size(), -s.scale.limit_px);
+    ImageF2 surface_motion;
     s.plate.move(background);
     s.hidden.move(background);
     if (area.empty()) {  // the surface has left the frame
@@ -348,8 +366,8 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
         s.sides = {};
         s.newcomers = {};
     } else {
-        const TransportedShape shape = transport_shape({s.phi, s.seen_phi()}, prev_from_cur, area,
-                                                       s.scale, s.uncovered, covered);
+        TransportedShape shape = transport_shape({s.phi, s.seen_phi()}, prev_from_cur, area,
+                                                 s.scale, s.uncovered, covered);
         const ViewU8x3 part = frame.crop(area);
         const ImageF2 key_from_cur = follow_places(s.key_from_prev, shape.prev_from_cur, area);
         const RefinedBoundary found =
@@ -362,27 +380,26 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
         s.confidence *= std::exp(-0.1f * risk);
         s.since_confidence *= std::exp(-0.1f * risk);
         s.confirmed.move(shape.prev_from_cur, area);
-        paste(estimate.matte, s.soften(part, found, key_from_cur, shape.prev_from_cur, area), area);
+        paste(matte, s.soften(part, found, key_from_cur, shape.prev_from_cur, area), area);
         paste(phi, found.phi, area);
         paste(s.key_from_prev, key_from_cur, area);
         s.hidden.follow(found.phi, key_from_cur, area);
         s.newcomers.settle(phi);
+        surface_motion = std::move(shape.prev_from_cur);
     }
-    s.drop_islands(frame, prev_from_cur, background, phi, estimate.matte);
-    s.take_back(frame, prev_from_cur, phi, estimate.matte);
-    s.take_whole_fills(frame, phi, estimate.matte);
-    s.take_as_scene(frame, prev_from_cur, covered, phi, estimate.matte);
-    estimate.confidence = s.confidence;
-    estimate.since = s.confirmed.since();
-    estimate.since_confidence = s.since_confidence;
+    s.drop_islands(frame, prev_from_cur, background, phi, matte);
+    s.take_back(frame, prev_from_cur, phi, matte);
+    s.take_whole_fills(frame, phi, matte);
+    s.take_as_scene(frame, prev_from_cur, covered, phi, matte);
+    if (s.followed) s.followed->advance({measured, surface_motion, area, s.phi, phi});
     s.phi = std::move(phi);
     s.seen = covered.empty() ? ImageF1() : seen_distance(s.phi, covered);
     s.plate.update(frame, s.seen_phi());
     s.scene.remember(s.seen_phi());
     if (!s.lost.lost(s.phi)) s.palette.follow(frame, s.seen_phi(), s.scale.band_px);
     s.frame = copy_of(frame);
-    s.last = estimate.matte;
-    return estimate;
+    s.last = std::move(matte);
+    return s.estimate(s.last);
 }
 
 }  // namespace weft

@@ -15,6 +15,9 @@ struct MatteEstimate {
     /// Where and for how long a confirmed part of the walk's has been carried; empty: none has.
     FramesSince since = {};
     float since_confidence = 1;  ///< As `confidence`, but 1 where the last part was confirmed.
+    /// What was followed all the way from the keyframe (Followed::known()), where walks are merged;
+    /// else empty.
+    Matte followed = {};
 };
 
 struct MatteOptions {
@@ -22,6 +25,7 @@ struct MatteOptions {
     /// Whether a painted edge is soft (MatteWalker::has_soft_edges()). If false, merging two
     /// estimates makes no edge soft, however uncertain it is.
     bool soft_edges = true;
+    bool merged = false;  ///< Whether estimates of the walk are merged with those of another.
 };
 
 /// Walks away from one keyframe, forwards or backwards in time, one frame at a time. The keyframe's
@@ -62,7 +66,8 @@ class MatteWalker {
 
 /// Two estimates of one frame, from the keyframe before and the one after it, between which it lies
 /// at `place`. Where parts were confirmed on the way these count as well, and what only one walk
-/// knows of stays as that walk has it. `in_front` as above.
+/// knows of stays as that walk has it. What one walk has followed from its keyframe counts for
+/// more than what the other has seen appear. `in_front` as above.
 [[nodiscard]] MatteEstimate merge_estimates(const MatteEstimate& from_before,
                                             const MatteEstimate& from_after,
                                             const MergePlace& place, ViewU8x3 frame,

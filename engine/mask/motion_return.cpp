@@ -4,59 +4,22 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "engine/core/parallel.h"
+#include "engine/mask/motion_evidence.h"
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
 namespace {
 
 constexpr double kLost = 0.1, kSeen = 0.3, kBack = 0.8;  // shares of the usual area
-constexpr double kFollowArea = 0.1;                      // of that area, from frame to frame
+constexpr double kGrow = 0.1, kShrink = 0.03;            // of that area, from frame to frame
 constexpr double kSmallest = 0.2, kLargest = 2.5;        // shares of it that a piece may have
 constexpr double kAhead = 1.5;                           // of any other piece
 constexpr double kOverlap = 0.3;                         // with the piece of the frame before
 constexpr int kFramesInRow = 3, kTaken = 10;             // in a row, and afterwards
-constexpr float kMostMotion = 3, kMostColor = 2;         // log odds
 constexpr double kLeastMotion = 0.5;                     // log odds, mean of a piece
-constexpr float kSpread_px = 4;                          // of the evidence, at 854×480
-constexpr int kEvidenceStep = 2;                         // px: it is gathered on each such pixel
-
-// Log odds, averaged near by.
-cv::Mat evidence(const MotionReturnInput& in) {
-    const Size size = in.frame.size();
-    cv::Mat odds((size.height + kEvidenceStep - 1) / kEvidenceStep,
-                 (size.width + kEvidenceStep - 1) / kEvidenceStep, CV_32F);
-    parallel_rows(odds.rows, 16, [&](int y0, int y1) {
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < odds.cols; ++x) {
-                const float motion = in.departs.row(y * kEvidenceStep)[x * kEvidenceStep];
-                const float color =
-                    in.palette.odds(in.frame.pixel(x * kEvidenceStep, y * kEvidenceStep));
-                odds.at<float>(y, x) = std::clamp(motion, -kMostMotion, kMostMotion) +
-                                       std::clamp(color, -kMostColor, kMostColor);
-            }
-        }
-    });
-    const int r =
-        std::max(1, static_cast<int>(std::lround(kSpread_px * in.unit_px / kEvidenceStep)));
-    cv::boxFilter(odds, odds, CV_32F, cv::Size(2 * r + 1, 2 * r + 1));
-    return odds;
-}
-
-// Which piece each of the pixels is of, 0: none. Pieces that nearly touch are one.
-cv::Mat pieces_in(const cv::Mat& odds, float unit_px) {
-    const int r = std::max(1, static_cast<int>(std::lround(kSpread_px * unit_px / kEvidenceStep)));
-    const cv::Mat disc =
-        cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * r + 1, 2 * r + 1));
-    cv::Mat over = odds > 0, labels;
-    cv::morphologyEx(over, over, cv::MORPH_CLOSE, disc);
-    cv::connectedComponents(over, labels, 8, CV_32S);
-    return labels;
-}
+constexpr int kEvidenceStep = kMotionEvidenceStep;       // px
 
 }  // namespace
 
@@ -127,7 +90,7 @@ bool MotionReturn::stays(const Matte& found, const FlowField& flow) {
 Matte MotionReturn::returned(const MotionReturnInput& in) {
     const double seen = area_of(in.phi);
     if (seen >= kLost * usual_px_ && taken_ == 0) {
-        if (seen >= kSeen * usual_px_) usual_px_ += kFollowArea * (seen - usual_px_);
+        if (seen >= kSeen * usual_px_) usual_px_ += (seen > usual_px_ ? kGrow : kShrink) * (seen - usual_px_);
         candidate_ = {};
         frames_ = 0;
         return {};
@@ -135,17 +98,19 @@ Matte MotionReturn::returned(const MotionReturnInput& in) {
     // A piece that was taken goes on where the surface was found, another must have the most
     // evidence.
     const bool goes_on = taken_ > 0;
-    const cv::Mat odds = evidence(in), labels = pieces_in(odds, in.unit_px);
-    double highest = 0;
-    cv::minMaxIdx(labels, nullptr, &highest);
+    const ImageF1 odds = motion_evidence(in);
+    const PieceLabels labels = motion_pieces(odds, 0, in.unit_px);
+    const std::int32_t* first = labels.data();
+    const std::int32_t highest =
+        *std::max_element(first, first + labels.size_bytes() / sizeof(*first));
     std::vector<Piece> pieces(static_cast<std::size_t>(highest) + 1);
-    for (int y = 0; y < labels.rows; ++y) {
-        for (int x = 0; x < labels.cols; ++x) {
-            Piece& piece = pieces[static_cast<std::size_t>(labels.at<int>(y, x))];
+    for (int y = 0; y < labels.height(); ++y) {
+        for (int x = 0; x < labels.width(); ++x) {
+            Piece& piece = pieces[static_cast<std::size_t>(labels.at(x, y))];
             piece.area_px += kEvidenceStep * kEvidenceStep;
             piece.motion += double{in.departs.row(y * kEvidenceStep)[x * kEvidenceStep]};
             const bool was_found = in.phi.row(y * kEvidenceStep)[x * kEvidenceStep] > 0;
-            piece.weight += goes_on ? (was_found ? 1.0 : 0.0) : double{odds.at<float>(y, x)};
+            piece.weight += goes_on ? (was_found ? 1.0 : 0.0) : double{odds.at(x, y)};
         }
     }
     if (goes_on) taken_ = seen > kBack * usual_px_ ? 0 : taken_ - 1;
@@ -159,7 +124,7 @@ Matte MotionReturn::returned(const MotionReturnInput& in) {
     found_ = {};
     for (int y = 0; y < found.height(); ++y) {
         for (int x = 0; x < found.width(); ++x) {
-            if (labels.at<int>(y / kEvidenceStep, x / kEvidenceStep) != best) continue;
+            if (labels.at(x / kEvidenceStep, y / kEvidenceStep) != best) continue;
             found.at(x, y) = 255;
             found_.add(x, y);
         }

@@ -6,19 +6,9 @@
 #include "engine/core/fields.h"
 #include "engine/core/geometry.h"
 #include "engine/core/image.h"
-#include "engine/mask/surface_palette.h"
+#include "engine/mask/motion_evidence.h"
 
 namespace weft {
-
-/// A frame of the walk, all of one size.
-struct MotionReturnInput {
-    ViewU8x3 frame;         ///< Display codes.
-    ViewF1 phi;             ///< Signed distance of what was found of the surface, px.
-    const FlowField& flow;  ///< prev_from_cur as measured.
-    ViewF1 departs;         ///< Log odds for inside by each pixel's motion (Departure::departs()).
-    const SurfacePalette& palette;
-    float unit_px = 1;  ///< A pixel of 854×480.
-};
 
 /// What departs from the background's motion in the surface's colours and is about as large as it
 /// was. SurfaceReturn knows a stiff surface by its pattern; this needs none. Not thread-safe.

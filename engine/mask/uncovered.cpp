@@ -36,7 +36,8 @@ cv::Mat count_origins(ViewF2 flow) {
     return count;
 }
 
-// 255 where pixels of the area have no valid motion and share the places that they come from.
+}  // namespace
+
 Matte parting_pixels(const FlowField& flow, const Recti& area) {
     constexpr float kShared = 1.3f;  // pixels that come from one
     constexpr int kMeanSide = 3, kMajority = 5;
@@ -66,6 +67,8 @@ Matte parting_pixels(const FlowField& flow, const Recti& area) {
     cv::medianBlur(parting, smooth, kMajority);
     return out;
 }
+
+namespace {
 
 // What surrounds the surface is not just one thing: its motion leads near to where it was, not
 // there. What leads far outside is the surface itself, which has swung out.

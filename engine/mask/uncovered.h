@@ -27,6 +27,11 @@ struct UncoveredParts {
     Matte revealed;   ///< Of this, what would have been seen before if it were the surface.
 };
 
+/// 255 where pixels of `area` have no valid motion and share the places that they come from, since
+/// motions part: nothing on the frame before looks like them. `flow`: prev_from_cur of the frame.
+/// Of the area's size. Parallel over rows; deterministic.
+[[nodiscard]] Matte parting_pixels(const FlowField& flow, const Recti& area);
+
 class Uncovered {
   public:
     /// A pixel was hidden before if its motion is not valid, since nothing of the frame before

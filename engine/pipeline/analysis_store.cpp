@@ -63,8 +63,13 @@ Expected<Bytes> MemoryAnalysisStore::get(const AnalysisKey& key) const {
 Bytes encode(const StoredMatte& m) {
     ByteWriter out;
     out.value(m.matte.size()).value(m.confidence).raw(m.matte.data(), m.matte.size_bytes());
-    if (!m.since.empty()) out.value(m.since_confidence).raw(m.since.data(), m.since.size_bytes());
-    return out.take();
+    const auto put_if_any = [&](const auto& image) {
+        out.value(static_cast<std::uint8_t>(!image.empty()));
+        if (!image.empty()) out.raw(image.data(), image.size_bytes());
+    };
+    put_if_any(m.followed);
+    put_if_any(m.since);
+    return out.value(m.since_confidence).take();
 }
 
 namespace {
@@ -214,10 +219,17 @@ Expected<StoredMatte> decode_matte(const Bytes& bytes) {
     if (!reader.ok() || !sane(size) || !reader.holds(area(size), 1)) return damaged("matte");
     out.matte = Matte(size);
     reader.raw(out.matte.data(), out.matte.size_bytes());
-    if (reader.complete()) return out;
-    if (!reader.ok() || !reader.holds(area(size), sizeof(std::uint16_t))) return damaged("matte");
-    out.since = FramesSince(size);
-    reader.value(out.since_confidence).raw(out.since.data(), out.since.size_bytes());
+    const auto read_if_any = [&](auto& image) {
+        std::uint8_t any = 0;
+        reader.value(any);
+        if (any == 0 || !reader.ok()) return reader.ok();
+        if (!reader.holds(area(size), sizeof(*image.data()))) return false;
+        image = std::decay_t<decltype(image)>(size);
+        reader.raw(image.data(), image.size_bytes());
+        return reader.ok();
+    };
+    if (!read_if_any(out.followed) || !read_if_any(out.since)) return damaged("matte");
+    reader.value(out.since_confidence);
     if (!reader.complete()) return damaged("matte");
     return out;
 }

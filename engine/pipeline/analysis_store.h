@@ -73,12 +73,13 @@ class MemoryAnalysisStore final : public AnalysisStore {
 };
 
 /// A propagated matte with its confidence, 0–1. What is kept for the walk back (kMatteForward) has
-/// the places that were confirmed, too (MatteEstimate::since).
+/// the places that were confirmed and what was followed, too (MatteEstimate).
 struct StoredMatte {
     Matte matte;
     float confidence = 1;
     FramesSince since = {};
     float since_confidence = 1;
+    Matte followed = {};
 };
 
 [[nodiscard]] Bytes encode(const StoredMatte& matte);

@@ -214,7 +214,8 @@ Status put(AnalysisStore& store, const Job& job, int frame, AnalysisKind kind,
            MatteEstimate estimate) {
     return store.put({job.region, frame, kind, job.layer},
                      encode(StoredMatte{std::move(estimate.matte), estimate.confidence,
-                                        std::move(estimate.since), estimate.since_confidence}));
+                                        std::move(estimate.since), estimate.since_confidence,
+                                        std::move(estimate.followed)}));
 }
 
 Status visit_forward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
@@ -245,7 +246,7 @@ Expected<MatteEstimate> found_forward(const AnalysisStore& store, const Job& job
     WEFT_TRY(bytes, store.get({job.region, frame, AnalysisKind::kMatteForward, job.layer}));
     WEFT_TRY(stored, decode_matte(bytes));
     return MatteEstimate{std::move(stored.matte), stored.confidence, std::move(stored.since),
-                         stored.since_confidence};
+                         stored.since_confidence, std::move(stored.followed)};
 }
 
 Status visit_backward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,

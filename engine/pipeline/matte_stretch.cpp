@@ -41,13 +41,14 @@ std::vector<MatteStretch> stretches(int region, int layer, const PaintedMatte& p
     const std::vector<int>& keys = painted.keys;
     const auto add = [&](std::vector<int> ends, int first, int last) {
         if (first > last) return;
+        const bool two_ends = ends.size() == 2;
         MatteStretch one{region,
                          layer,
                          std::move(ends),
                          {},
                          painted.reach,
                          {first, last},
-                         {painted.steadiness, false}};
+                         {painted.steadiness, false, two_ends}};
         std::copy_if(painted.confirmed.begin(), painted.confirmed.end(),
                      std::back_inserter(one.confirmed), [&](int frame) {
                          return holds(one.own, frame) && !one.is_key(frame) &&

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/mask/part_return.h"
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
@@ -110,6 +111,47 @@ TEST(MotionReturn, DoesNotTakeAnotherThingOfItsColour) {
         EXPECT_TRUE(
             twice.returned({two.frame, nothing, two.flow, two.departs, palette, 1}).empty());
     }
+}
+
+// What returns on four frames on which only the upper part of the figure is seen.
+std::vector<Matte> returned_around(const Recti& seen, double share, const Recti& moving) {
+    const SurfacePalette palette(FigureScene(kKey, true).frame, figure_distance(kKey));
+    PartReturn back(figure_distance(kKey));
+    Recti part = seen;
+    part.y1 = part.y0 + static_cast<int>(share * (seen.y1 - seen.y0));
+    std::vector<Matte> out;
+    for (int t = 0; t < 4; ++t) {
+        const FigureScene scene(moving, true);
+        out.push_back(back.returned(
+            {scene.frame, figure_distance(part), scene.flow, scene.departs, palette, 1}));
+    }
+    return out;
+}
+
+TEST(PartReturn, AddsTheRestOnceItHasBeenThereForThreeFrames) {
+    const std::vector<Matte> found = returned_around(at(0), 0.4, at(0));
+    EXPECT_TRUE(found[0].empty());
+    EXPECT_TRUE(found[1].empty());
+    ASSERT_FALSE(found[2].empty());
+    EXPECT_GT(overlap_of(found[2], at(0)), 0.75);
+}
+
+TEST(PartReturn, LeavesAloneWhatIsSeenOrLost) {
+    for (const double share : {0.8, 0.05}) {
+        for (const Matte& matte : returned_around(at(0), share, at(0)))
+            EXPECT_TRUE(matte.empty()) << share;
+    }
+}
+
+TEST(PartReturn, TakesNothingLargerThanTheSurfaceWas) {
+    for (const Matte& matte : returned_around(at(0), 0.4, {100, 10, 300, 190}))
+        EXPECT_TRUE(matte.empty());
+}
+
+TEST(PartReturn, WhatHasLeftThePictureIsNotLost) {
+    const Recti border{kFigureFrame.width - 40, 60, kFigureFrame.width, 120};
+    for (const Matte& matte : returned_around(border, 0.4, border))
+        EXPECT_TRUE(matte.empty());
 }
 
 }  // namespace
