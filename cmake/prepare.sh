@@ -56,6 +56,17 @@ build_jobs() {
     echo $((jobs > 0 ? jobs : 1))
 }
 
+# test_jobs: how many tests run side by side, one for two cores and for each 2 GB of free memory, two at least: tests
+# compute with several threads, and some wait for what they show.
+test_jobs() {
+    local cores memory_mb jobs
+    cores=$(nproc 2>/dev/null || echo 1)
+    memory_mb=$(awk '/^MemAvailable:/ { print int($2 / 1024) }' /proc/meminfo 2>/dev/null || true)
+    jobs=$((cores / 2))
+    if [[ -n $memory_mb ]] && ((memory_mb / 2000 < jobs)); then jobs=$((memory_mb / 2000)); fi
+    echo $((jobs > 2 ? jobs : 2))
+}
+
 # One compiler cache for every clone: objects are found by what they are made of, not by where they lie.
 # Sources whose headers are precompiled are cached only with this sloppiness.
 use_compiler_cache() {

@@ -60,11 +60,10 @@ const char* kind_name(AnalysisKind kind) {
             return "coords";
         case AnalysisKind::kCoordsOneWay:
             return "coords-one-way";
-        // As the files have always been called, so that kept analyses stay whole.
         case AnalysisKind::kTrackBefore:
-            return "history-before";
+            return "track-before";
         case AnalysisKind::kTrackAfter:
-            return "history-after";
+            return "track-after";
         case AnalysisKind::kHeldBetween:
             return "held-between";
         case AnalysisKind::kLightSample:

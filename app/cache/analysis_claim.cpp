@@ -35,7 +35,7 @@ AnalysisClaim claim_analysis(const AnalysisCache& cache, const ShotPlan& plan,
             total = left;
         } else if (progress) {
             done = std::max(done, total - left);
-            progress({"wait", done, total, 0, 0});
+            progress({WorkStage::kWait, done, total, 0, 0});
         }
         return left == 0;
     });

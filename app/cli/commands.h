@@ -125,7 +125,7 @@ struct MeasureCommandOptions {
     Project project;  ///< Plate, matte, placement, motion; paths resolved.
     std::string result;
     std::string texture;  ///< Reference plane; empty: none.
-    std::string motion_estimator = "deepflow";
+    MeasuringEstimator estimator = MeasuringEstimator::kDeepFlow;
     std::string truth;  ///< Ground truth: the scene rendered with the new material; empty: none.
     double truth_blur_px = 0;
     std::string st;        ///< EXRs with the layer st; empty: none.

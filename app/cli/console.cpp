@@ -55,9 +55,8 @@ std::string plain_line(const ProgressEvent& e) {
     char line[160];
     const double percent =
         e.total > 0 ? 100.0 * static_cast<double>(e.done) / static_cast<double>(e.total) : 100.0;
-    const bool rendered = e.stage == "render";
-    std::snprintf(line, sizeof line, "%s%sframe %d %lld/%lld %.1f%% %.2fs\n",
-                  rendered ? "" : e.stage.c_str(), rendered ? "" : " ", e.frame,
+    const std::string stage = e.stage == WorkStage::kRender ? "" : e.name() + " ";
+    std::snprintf(line, sizeof line, "%sframe %d %lld/%lld %.1f%% %.2fs\n", stage.c_str(), e.frame,
                   static_cast<long long>(e.done), static_cast<long long>(e.total), percent,
                   e.seconds);
     return line;
@@ -70,12 +69,12 @@ std::string openjd_lines(const ProgressEvent& e) {
     const double percent =
         e.total > 0 ? 100.0 * static_cast<double>(e.done) / static_cast<double>(e.total) : 100.0;
     std::snprintf(line, sizeof line, "openjd_status: %s frame %d\nopenjd_progress: %.1f\n",
-                  e.stage.c_str(), e.frame, percent);
+                  e.name().c_str(), e.frame, percent);
     return line;
 }
 
 std::string json_line(const ProgressEvent& e) {
-    return nlohmann::ordered_json{{"stage", e.stage},
+    return nlohmann::ordered_json{{"stage", e.name()},
                                   {"frame", e.frame},
                                   {"done", e.done},
                                   {"total", e.total},

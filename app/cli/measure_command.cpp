@@ -132,8 +132,7 @@ CommandResult measure_command(const MeasureCommandOptions& options) {
     MeasureJobOptions job;
     job.project = options.project;
     job.results = {options.result};
-    job.estimator = options.motion_estimator == "farneback" ? MeasuringEstimator::kFarneback
-                                                            : MeasuringEstimator::kDeepFlow;
+    job.estimator = options.estimator;
     job.truth = options.truth;
     job.truth_blur_px = static_cast<float>(options.truth_blur_px);
     job.st = options.st;

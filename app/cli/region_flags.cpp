@@ -107,35 +107,29 @@ ProjectFlags::ProjectFlags(CLI::App& command, const Which& which) {
         }
     }
     if (which.matte) {
-        command
-            .add_option("--matte", mattes_,
-                        "Matte for every frame ('masks/####.png', or a movie), a painted keyframe "
-                        "(12=a.png, repeatable), or objects of a Cryptomatte (crypto:NAME)")
-            ->type_name("PATH")
-            ->expected(1)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        command
-            .add_option("--matte-confirmed", confirmed_,
-                        "Parts of a propagated matte that are right on a frame: the frame's matte "
-                        "and the area in which it is (30=matte.png,area.png, repeatable)")
-            ->type_name("FRAME=MATTE,AREA")
-            ->expected(1)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        command
-            .add_option(
-                "--holdout", holdouts_,
-                "Matte of what passes in front of the surface: a pattern, painted keyframes "
-                "(12=a.png), or crypto:NAME; repeatable")
-            ->type_name("PATH")
-            ->expected(1)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        command
-            .add_option("--zone", zones_,
-                        "Where the light has another strength: light=VALUE@MATTE, VALUE 0 to 2, "
-                        "MATTE a pattern, painted keyframes (12=a.png) or crypto:NAME; repeatable")
-            ->type_name("ZONE")
-            ->expected(1)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        const auto add_repeatable = [&](const char* name, std::vector<std::string>& into,
+                                        const char* help, const char* type) {
+            command.add_option(name, into, help)
+                ->type_name(type)
+                ->expected(1)
+                ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        };
+        add_repeatable("--matte", mattes_,
+                       "Matte for every frame ('masks/####.png', or a movie), a painted keyframe "
+                       "(12=a.png, repeatable), or objects of a Cryptomatte (crypto:NAME)",
+                       "PATH");
+        add_repeatable("--matte-confirmed", confirmed_,
+                       "Parts of a propagated matte that are right on a frame: the frame's matte "
+                       "and the area in which it is (30=matte.png,area.png, repeatable)",
+                       "FRAME=MATTE,AREA");
+        add_repeatable("--holdout", holdouts_,
+                       "Matte of what passes in front of the surface: a pattern, painted keyframes "
+                       "(12=a.png), or crypto:NAME; repeatable",
+                       "PATH");
+        add_repeatable("--zone", zones_,
+                       "Where the light has another strength: light=VALUE@MATTE, VALUE 0 to 2, "
+                       "MATTE a pattern, painted keyframes (12=a.png) or crypto:NAME; repeatable",
+                       "ZONE");
         command
             .add_option("--crypto-files", crypto_files_,
                         "EXR files with the Cryptomatte; default the plate")

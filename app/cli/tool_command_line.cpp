@@ -39,9 +39,10 @@ void add_measure(CLI::App& app, CommandResult& result) {
     command->add_option("--out-space", options->project.color.out_space,
                         "Colour space of the result");
     command
-        ->add_option("--estimator", options->motion_estimator,
+        ->add_option("--estimator", options->estimator,
                      "Motion estimator without --motion: deepflow or farneback [deepflow]")
-        ->check(one_of({"deepflow", "farneback"}))
+        ->transform(choice<MeasuringEstimator>({{"deepflow", MeasuringEstimator::kDeepFlow},
+                                                {"farneback", MeasuringEstimator::kFarneback}}))
         ->type_name("");
     add_comparisons(*command, *options);
     command

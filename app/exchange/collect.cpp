@@ -105,7 +105,7 @@ class Collector {
                 WEFT_CHECK_OK(copy_whole(credit, beside, rule_, collected));
                 copied_.insert(beside);
             }
-            if (progress_) progress_({"collect", done_, std::max(done_, total_), 0, 0});
+            if (progress_) progress_({WorkStage::kCollect, done_, std::max(done_, total_), 0, 0});
         }
         const std::string out =
             is_folder ? relative.string() : (relative / fs::path(path).filename()).string();

@@ -1,6 +1,7 @@
 #pragma once
 // What a render job says while it works.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ class JobProgress {
     [[nodiscard]] bool read(JobView& view, double elapsed_s);
 
   private:
-    void note(JobView& view, const std::string& stage, double elapsed_s);
+    void note(JobView& view, std::optional<WorkStage> stage, double elapsed_s);
 
     WrittenLines lines_;
     bool replays_;

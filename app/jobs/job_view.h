@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/base/picture.h"
+#include "engine/core/progress.h"
 
 namespace weft {
 
@@ -28,8 +29,9 @@ struct JobProblem {
 struct JobView {
     int id = 0;  ///< In this process.
     JobState state = JobState::kWaiting;
-    std::string label, output, stage, error;
-    JobProblem problem;       ///< Of a failed job.
+    std::string label, output, error;
+    std::optional<WorkStage> stage;  ///< Empty: it is starting.
+    JobProblem problem;              ///< Of a failed job.
     int done = 0, total = 0;  ///< Finished frames; frames of the analysis while `stage` says so.
     int newest_frame = 0;     ///< 0: none yet.
     bool has_frame = false;

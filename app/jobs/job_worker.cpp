@@ -89,7 +89,7 @@ void show_record(const JobRecord& record, const JobFiles& files, JobView& view) 
     view.log_path = files.log;
     view.estimated_s = view.mine ? record.estimated_s : 0;
     if (record.state == JobState::kWaiting) {
-        view.stage.clear();
+        view.stage.reset();
         view.done = 0;
         view.total = record.total;
         view.elapsed_s = view.left_s = view.frames_per_minute = 0;
@@ -232,7 +232,7 @@ void JobWorker::follow(KnownJob& job) {
     {
         const std::lock_guard lock(shared_.mutex);
         if (job.progress->read(job.view, elapsed_s)) ++shared_.changes;
-        pictured = job.view.has_frame && job.view.stage == "render";
+        pictured = job.view.has_frame && job.view.stage == WorkStage::kRender;
     }
     if (pictured && Clock::now() - job.pictured_at > kPictures) picture(job);
     if (over) finish(job, good);

@@ -231,7 +231,7 @@ Status write_pictures(MotionRun& job) {
             job.result.kept += made->kept;
             ++done;
             if (job.progress)
-                job.progress({"export", done, static_cast<std::int64_t>(count), frame,
+                job.progress({WorkStage::kExport, done, static_cast<std::int64_t>(count), frame,
                               seconds_since(start)});
             return {};
         }));

@@ -43,8 +43,8 @@ bool Preview::try_request(const PreviewRequest& request) {
     return true;
 }
 
-void Preview::carry(const Project& project, const PaintedMattes& painted, int frame) {
-    impl_->carrier.carry(project, painted, frame);
+void Preview::propagate(const Project& project, const PaintedMattes& painted, int frame) {
+    impl_->propagator.propagate(project, painted, frame);
 }
 
 void Preview::clear() {
@@ -72,12 +72,12 @@ void Preview::clear() {
 
 void Preview::forget(std::uint64_t document) {
     clear();
-    impl_->carrier.clear();
+    impl_->propagator.clear();
     impl_->guarded.lock()->document = document;
 }
 
 void Preview::pause() {
-    impl_->carrier.pause();
+    impl_->propagator.pause();
     const auto shared = impl_->guarded.lock();
     shared->paused = true;
     shared->analysis_cancel.cancel();
@@ -85,7 +85,7 @@ void Preview::pause() {
 }
 
 void Preview::resume() {
-    impl_->carrier.resume();
+    impl_->propagator.resume();
     const auto shared = impl_->guarded.lock();
     shared->paused = false;
     shared->analysis_pending = shared->to_analyse != nullptr;
@@ -119,20 +119,20 @@ bool Preview::try_read(int frame, RegionId region, int layer, PreviewReading& re
 }
 
 std::uint64_t Preview::changes() const {
-    return impl_->changes.load() + impl_->carrier.changes();
+    return impl_->changes.load() + impl_->propagator.changes();
 }
 
 Expected<Matte> Preview::propagated_matte(const WantedMatte& wanted) const {
     if (const auto [now, k] = impl_->find_opened(wanted.region); now)
         if (auto found = matte_in(now->asked, *now->shot, *now->store, wanted)) return found;
-    return impl_->carrier.matte(wanted);
+    return impl_->propagator.matte(wanted);
 }
 
 std::vector<int> Preview::reached(const WantedMatte& wanted) const {
     if (const auto [now, k] = impl_->find_opened(wanted.region); now)
         if (auto found = reached_in(now->asked, *now->shot, *now->store, wanted); !found.empty())
             return found;
-    return impl_->carrier.reached(wanted);
+    return impl_->propagator.reached(wanted);
 }
 
 Expected<LatticeField> Preview::track(RegionId region, int before, int now) const {
@@ -154,7 +154,7 @@ std::pair<OpenedPtr, std::size_t> Preview::Impl::find_opened(RegionId region) co
 }
 
 std::uint64_t Preview::matte_version() const {
-    return impl_->mattes.load() + impl_->carrier.changes();
+    return impl_->mattes.load() + impl_->propagator.changes();
 }
 
 }  // namespace weft

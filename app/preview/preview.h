@@ -195,10 +195,10 @@ class Preview {
 
     /// Returns false and does nothing while a worker holds the lock.
     bool try_request(const PreviewRequest& request);
-    /// Carries the painted mattes of regions without a texture (MatteCarrier::carry()). Never
-    /// blocks.
-    void carry(const Project& project, const PaintedMattes& painted, int frame);
-    /// Closes the shot and stops all work except carry().
+    /// Propagates the painted mattes of regions without a texture (MattePropagator::propagate()).
+    /// Never blocks.
+    void propagate(const Project& project, const PaintedMattes& painted, int frame);
+    /// Closes the shot and stops all work except propagate().
     void clear();
     /// The same when another document is opened: nothing of the one before is reported any more,
     /// also where plate, region ids and frames are the same. Later requests are for `document`.

@@ -88,7 +88,7 @@ std::vector<int> reached_in(const Project& asked, const Shot& shot, const Analys
 }
 
 // What the artist has just painted is looked at before its texture is.
-void Preview::Impl::carry_mattes_at(const OpenedShot& work, int frame, const CancelToken& token) {
+void Preview::Impl::propagate_to(const OpenedShot& work, int frame, const CancelToken& token) {
     const ShotPlan plan = plan_for(work, work.shot->plate->frames());
     const auto step = [&](int, double) {
         const auto shared = guarded.lock();
@@ -119,7 +119,7 @@ void Preview::Impl::analyse_loop() {
             shared->analysis_cancel = token;
             shared->analysing_key = work->analysis;
         }
-        if (!first.empty()) carry_mattes_at(*work, first.front(), token);
+        if (!first.empty()) propagate_to(*work, first.front(), token);
         // Analyse the visible frame first, unless that is nearly all of the work.
         const int for_first = steps_to(*work, first), for_all = steps_to(*work, all);
         const bool apart = for_first > 0 && 5 * for_first < 4 * for_all;

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "app/base/guarded.h"
-#include "app/preview/matte_carrier.h"
+#include "app/preview/matte_propagator.h"
 #include "app/preview/preview.h"
 #include "app/preview/preview_overlay.h"
 #include "app/preview/preview_scenes.h"
@@ -138,7 +138,7 @@ struct Preview::Impl {
     [[nodiscard]] bool await_other(const OpenedPtr& work, const std::vector<int>& list, int total);
     void analyse(const OpenedPtr& opened, const std::vector<int>& frames, bool keep_walks,
                  const CancelToken& token);
-    void carry_mattes_at(const OpenedShot& opened, int frame, const CancelToken& token);
+    void propagate_to(const OpenedShot& opened, int frame, const CancelToken& token);
     void collect_confidence(const OpenedShot& opened);
     void collect_health(const OpenedShot& opened, const CancelToken& token);
 
@@ -230,7 +230,7 @@ struct Preview::Impl {
     // by CardRequest::key, with Shared::visits at that time
     std::map<std::string, std::uint64_t> tried_cards;
 
-    MatteCarrier carrier;
+    MattePropagator propagator;
     std::thread renderer, analyser;
 };
 

@@ -47,7 +47,7 @@ Preview::Impl::Impl(AnalysisCacheOptions cache_options, std::string library, std
       texture_library(std::move(library)),
       budget_bytes(budget),
       backend(make_cpu_backend()),
-      carrier(cache, files) {
+      propagator(cache, files) {
     renderer = std::thread([this] { render_loop(); });
     analyser = std::thread([this] { analyse_loop(); });
 }

@@ -27,12 +27,16 @@ NotSought why_not_sought(const Region& region, const RegionPlan& plan) {
     return region.placement.corners_px ? NotSought::kCorners : NotSought::kUnlocked;
 }
 
-std::string drawn_name(const RegionPlan& plan) {
-    if (plan.form_from != RegionPlan::FormFrom::kShape) return {};
+std::optional<FormGuideKind> drawn_in(const RegionPlan& plan) {
+    if (plan.form_from != RegionPlan::FormFrom::kShape) return std::nullopt;
     const auto shape = std::find_if(plan.form_guides.begin(), plan.form_guides.end(),
                                     [](const FormGuide& guide) { return is_shape(guide.kind); });
-    return shape == plan.form_guides.end() ? "parallel strokes"
-                                           : std::string(info_of(shape->kind).name);
+    return shape == plan.form_guides.end() ? FormGuideKind::kParallel : shape->kind;
+}
+
+std::string drawn_name(FormGuideKind drawn) {
+    return std::string(drawn == FormGuideKind::kParallel ? "parallel strokes"
+                                                         : info_of(drawn).name);
 }
 
 // A reason as the JSON names it, and as a clause after "flat, ".
@@ -106,8 +110,9 @@ std::string what_was_found(const FormReport& form) {
             return fmt::format("{}, from {} of motion", f.plane ? "plane" : "curved surface",
                                frames_of(f.frames));
         case Source::kShape:
-            return form.drawn == "parallel strokes" ? "plane, from parallel strokes"
-                                                    : form.drawn + ", as drawn";
+            if (!form.drawn) break;
+            return form.drawn == FormGuideKind::kParallel ? "plane, from parallel strokes"
+                                                          : drawn_name(*form.drawn) + ", as drawn";
         case Source::kOutline:
             return "round, inflated from its outline";
         case Source::kLines:
@@ -159,7 +164,7 @@ Expected<std::vector<FormReport>> form_reports(const Shot& shot, const AnalysisS
             WEFT_TRY(bytes, store.get(key));
             WEFT_TRY(map, decode_form(bytes));
             form.finding = map.finding;
-            form.drawn = drawn_name(plan);
+            form.drawn = drawn_in(plan);
             if (form.finding.source == Source::kPass) {
                 form.pass = form_files(region).what;
                 form.pass.front() = 't';
@@ -201,7 +206,7 @@ Json form_json(const FormReport& form) {
     }
     // A pass is laid as it is; whether it shows a plane is not asked.
     if (f.source != Source::kPass) out["plane"] = f.plane;
-    if (!form.drawn.empty()) out["drawn"] = form.drawn;
+    if (form.drawn) out["drawn"] = drawn_name(*form.drawn);
     out["frames"] = f.frames;
     if (has_tilt(f)) {
         out["tilt_deg"] = rounded(f.tilt_deg);

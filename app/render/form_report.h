@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/shot/shot.h"
+#include "engine/form/form_guide.h"
 #include "engine/form/form_map.h"
 #include "engine/pipeline/analysis_store.h"
 
@@ -26,7 +28,8 @@ struct FormReport {
     std::string region;  ///< Its name.
     int frame = 0;       ///< Its reference frame.
     std::string pass;    ///< "the position pass"; empty: another source.
-    std::string drawn;   ///< What was drawn: "plane", "cylinder", "parallel strokes".
+    /// What was drawn: a shape, or kParallel for strokes.
+    std::optional<FormGuideKind> drawn;
     float amount = 1;  ///< As set: how far the texture follows the form, 0–1; with keys the most.
     bool keyed = false;   ///< The amount has keys.
     FormFinding finding;  ///< kNone: flat.

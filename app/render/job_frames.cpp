@@ -189,8 +189,8 @@ Status render_frames(const FrameInputs& in, const std::string& movie_path,
         const std::lock_guard lock(progress_mutex);
         ++done;
         if (progress) {
-            progress({"render", done, static_cast<std::int64_t>(frames.size()), result.frame,
-                      result.seconds});
+            progress({WorkStage::kRender, done, static_cast<std::int64_t>(frames.size()),
+                      result.frame, result.seconds});
         }
         return {};
     };

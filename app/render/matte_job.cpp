@@ -98,7 +98,7 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
 
     warnings.insert(warnings.end(), shot->warnings.begin(), shot->warnings.end());
     WEFT_TRY(store, open_analysis_cache(*shot, spec.cache, warnings));
-    ProgressEvent event{"analyse", 0, count_matte_steps(plan, *store), 0, 0};
+    ProgressEvent event{WorkStage::kAnalyse, 0, count_matte_steps(plan, *store), 0, 0};
     const PassContext context{*shot->source, plan, cancel, [&](int frame, double seconds) {
                                   ++event.done;
                                   event.frame = frame;

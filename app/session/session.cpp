@@ -1,217 +1,70 @@
 #include "app/session/session.h"
 
-#include <filesystem>
 #include <utility>
 
-#include "app/project/codec/project_file.h"
-#include "app/session/timeline_marks.h"
+#include "app/session/session_parts.h"
 
 namespace weft {
 
 Session::Session(SessionOptions options, EditorSettings* settings)
-    : options_(std::move(options)),
-      settings_(settings ? *settings : own_settings_),
-      preview_(options_.cache, options_.texture_library),
-      document_((std::filesystem::path(options_.state_folder) / "recovery").string(),
-                [this] { shelf_.flush(); }, *this, notices_),
-      tasks_(document_),
-      files_({document_, tasks_, notices_, shelf_, [this] { end_painting(); },
-              options_.texture_library}),
-      trust_(options_.trust_file, document_, notices_),
-      saving_({document_, selection_, files_, trust_, tasks_, notices_, shelf_, settings_,
-               [this] { end_painting(); }, options_.state_folder}),
-      opening_({document_, files_, tasks_, notices_, settings_, options_.assets,
-                options_.state_folder, options_.offer_recovery}),
-      plate_(playback_, shutdowns_, options_.plate_budget_bytes),
-      screens_(tasks_, notices_, settings_),
-      preview_desk_({preview_, document_, selection_, plate_, playback_, shelf_}),
-      strip_({document_, selection_, plate_, playback_, preview_desk_}),
-      matte_folder_(document_, options_.state_folder),
-      propagated_({document_, shelf_, preview_}),
-      shown_mattes_({document_, selection_, plate_, playback_, shelf_, propagated_, painting_}),
-      target_({document_, selection_, plate_, playback_, shown_mattes_, notices_}),
-      kept_mattes_({document_, selection_, matte_folder_, shelf_, propagated_, notices_}),
-      changes_({document_, selection_, plate_, target_, kept_mattes_, notices_, shutdowns_,
-                [this] { end_stroke(); }}),
-      strokes_({document_, playback_, target_, painting_, kept_mattes_, changes_, notices_}),
-      shapes_({document_, selection_, plate_, playback_, preview_, matte_folder_, kept_mattes_,
-               tasks_, notices_}),
-      matte_export_({document_, selection_, plate_, playback_, preview_, shelf_, matte_folder_,
-                     tasks_, notices_, [this] { end_painting(); }}),
-      cryptomatte_({document_, selection_, plate_, playback_, tasks_, notices_}),
-      form_check_({document_, plate_, preview_desk_, shown_mattes_}),
-      textures_({document_, tasks_, notices_, shutdowns_, settings_, options_.texture_library,
-                 options_.state_folder}),
-      renders_({document_, plate_, trust_, shelf_, tasks_, notices_, [this] { end_painting(); },
-                options_.program, options_.state_folder}),
-      measurement_({document_, selection_, plate_, preview_, notices_, shutdowns_}) {
-    screens_.look();
+    : parts_(std::make_unique<Parts>(std::move(options), settings)) {}
+
+Session::~Session() = default;
+
+void Session::act(const Action& action) {
+    parts_->act(action);
 }
 
-Session::~Session() {
-    measurement_.end();
-    tasks_.drop();
+void Session::act_now(const std::vector<Action>& actions) {
+    parts_->act_now(actions);
 }
 
-Plate Session::plate() const {
-    Plate out = document_.project().plate;
-    out.path = resolve_path(document_.folder(), out.path);
-    return out;
+void Session::update(double now_s) {
+    parts_->update(now_s);
 }
 
-// Nothing of the document before is kept: no picture, no unfinished change, no target.
-void Session::document_replaced() {
-    preview_desk_.forget();
-    painting_.cancel();
-    changes_.forget();
-    textures_.forget();
-    shown_mattes_.forget();
-    playback_.reset();
-    selection_ = {};
-    strip_.forget();
-    measurement_.end();
-    view_.report = {};
-    files_.forget();
-    saving_.forget();
-    plate_.forget();
-    trust_.judge();
-}
-
-void Session::document_changed() {
-    preview_desk_.ask();
-    plate_.open(plate());
-    selection_.follow(document_.project());
-}
-
-WriteRule Session::export_rule() const {
-    return export_rule_of(document_.resolved(), document_.path());
-}
-
-void Session::close_cleanly() {
-    end_painting();
-    files_.cancel_collect();
-    shelf_.flush();
-    tasks_.finish(true);
-    document_.clear_recovery();
-    document_.flush_recovery();
-    show_answers();
-}
-
-void Session::flush() {
-    end_painting();
-    shelf_.flush();
-    tasks_.finish(true);
-    document_.flush_recovery();
-    show_answers();
+const SessionView& Session::view() const {
+    return parts_->view();
 }
 
 bool Session::busy() const {
-    return playback_.direction() != 0 || painting_.active() || changes_.busy() ||
-           textures_.busy() || plate_.opening() || !tasks_.empty() || preview_desk_.pending() ||
-           strip_.busy() || measurement_.busy();
+    return parts_->busy();
 }
 
 std::uint64_t Session::changes() const {
-    return shelf_.changes() + preview_.changes() + renders_.changes() + plate_.changes() +
-           propagated_.changes();
+    return parts_->changes();
 }
 
-// ---- update() --------------------------------------------------------------------------------
-
-void Session::update(double now_s) {
-    advance(now_s);
-    show(now_s);
-    painting_.shown();
+void Session::dismiss(int notice) {
+    parts_->dismiss(notice);
 }
 
-void Session::advance(double now_s) {
-    enter("files");
-    tasks_.finish(false);
-    enter("plate");
-    shutdowns_.clear_ended();
-    if (plate_.take()) {
-        if (const auto frame = opening_.take_first_frame()) (void)playback_.go_to(*frame);
-        preview_desk_.ask();
-        document_.touch();
-    }
-    notices_.set_time(now_s);
-    opening_.find_more_recoverable(now_s);
-    plate_.advance(now_s);
-    enter("mattes");
-    advance_mattes();
-    textures_.take();
-    enter("preview");
-    if (preview_desk_.pending() && !painting_.active())
-        preview_desk_.request(now_s, strip_.requests());
-    enter("notices");
-    notice_errors();
+void Session::notify(NoticeKind kind, std::string text) {
+    parts_->notify(kind, std::move(text));
 }
 
-void Session::advance_mattes() {
-    changes_.take();
-    strokes_.update();
-    painting_.update();
-    // Results from in-memory mattes may now be filed under the names of their files.
-    if (kept_mattes_.were_written()) preview_desk_.ask();
+void Session::set_clock(FrameClock* clock) {
+    parts_->set_clock(clock);
 }
 
-void Session::notice_errors() {
-    if (const std::string error = shelf_.take_write_error(); !error.empty())
-        notices_.add(NoticeKind::kError, error);
-    if (const std::string error = document_.take_recovery_error(); !error.empty())
-        notices_.add(NoticeKind::kError, "Cannot write the autosave. " + error);
-    notices_.expire();
+void Session::flush() {
+    parts_->flush();
 }
 
-// ---- the view --------------------------------------------------------------------------------
-
-void Session::show(double now_s) {
-    enter("document");
-    view_.now_s = now_s;
-    view_.selected = selection_.region;
-    view_.solo = selection_.solo;
-    view_.locked.assign(selection_.locked.begin(), selection_.locked.end());
-    document_.show(view_);
-    opening_.show(view_);
-    files_.show_collecting(view_);
-    enter("plate");
-    plate_.update(plate());
-    plate_.show_frame(view_);
-    show_answers();
-    enter("mattes");
-    show_mattes();
-    enter("preview");
-    preview_desk_.read();
-    preview_desk_.show(view_);
-    form_check_.show(view_);
-    measurement_.show(view_);
-    enter("strip");
-    shapes_.show(view_);
-    strip_.update(painting_.active(), view_.strip);
-    enter("marks");
-    show_marks(plate_.states(), preview_desk_.reading(), view_);
-    view_.to_correct = suggested_corrections(view_);
-    enter("jobs");
-    renders_.watch();
-    renders_.show(view_);
-    view_.notices = notices_.all();
+std::string Session::job_log(int id) const {
+    return parts_->job_log(id);
 }
 
-void Session::show_answers() {
-    plate_.show(view_);
-    screens_.show(view_);
-    files_.show(view_);
-    saving_.show(view_);
-    trust_.show(view_);
+WriteRule Session::export_rule() const {
+    return parts_->export_rule();
 }
 
-void Session::show_mattes() {
-    view_.painting = painting_.active();
-    changes_.show(view_);
-    if (document_.is_open()) selection_.keep_layer(document_.project());
-    shown_mattes_.show(view_);
-    const bool still = preview_desk_.read_frame() == playback_.frame();
-    if (document_.is_open() && still && !changes_.busy()) strokes_.prepare(view_);
+void Session::close_cleanly() {
+    parts_->close_cleanly();
+}
+
+const SessionOptions& Session::options() const {
+    return parts_->options();
 }
 
 }  // namespace weft

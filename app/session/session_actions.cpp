@@ -6,12 +6,12 @@
 #include "app/mattes/matte_layer.h"
 #include "app/mattes/paint.h"
 #include "app/project/key_rows.h"
-#include "app/session/session.h"
+#include "app/session/session_parts.h"
 
 namespace weft {
 
-struct Session::Actor {
-    Session& s;
+struct Session::Parts::Actor {
+    Parts& s;
 
     // ---- the document ----
     void operator()(const DoEdit& a) const {
@@ -204,12 +204,12 @@ struct Session::Actor {
     }
 };
 
-void Session::act(const Action& action) {
+void Session::Parts::act(const Action& action) {
     std::visit(Actor{*this}, action);
     show_answers();
 }
 
-void Session::act_now(const std::vector<Action>& actions) {
+void Session::Parts::act_now(const std::vector<Action>& actions) {
     for (const Action& action : actions)
         act(action);
     show_mattes();

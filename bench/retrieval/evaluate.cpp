@@ -309,7 +309,7 @@ Expected<EvaluationReport> ask_itself(const std::vector<Stored>& samples, const 
             tally.ask(library, s->material, s->features);
         out.samples = static_cast<int>(kept.size());
         out.left_out = static_cast<int>(samples.size() - kept.size());
-        if (progress) progress({"evaluate", fold + 1, kFolds, 0, 0});
+        if (progress) progress(ProgressEvent::titled("evaluate", fold + 1, kFolds));
     }
     tally.report(out);
     return out;

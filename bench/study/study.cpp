@@ -158,7 +158,7 @@ class Study {
         if (!progress_) return {};
         return [this, name](const ProgressEvent& event) {
             ProgressEvent named = event;
-            named.stage = name + " " + event.stage;
+            named.title = name + " " + event.name();
             progress_(named);
         };
     }
@@ -200,7 +200,7 @@ class Study {
         std::int64_t done = 0;
         const auto total = static_cast<std::int64_t>(job.results.size() * result_.frames.size());
         job.measured = [&](std::size_t, const FrameMeasures& f) {
-            if (progress_) progress_({"measure", ++done, total, f.frame, 0});
+            if (progress_) progress_({WorkStage::kMeasure, ++done, total, f.frame, 0});
         };
         WEFT_TRY(measured, run_measure_job(job, cancel_));
         for (const std::string& warning : measured.warnings) {

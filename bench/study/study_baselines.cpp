@@ -83,7 +83,8 @@ class BaselineRenderer {
         const std::lock_guard lock(progress_mutex_);
         ++done_;
         if (progress_) {
-            progress_({"render", done_, static_cast<std::int64_t>(shot_->plan.frames.size()), frame,
+            progress_({WorkStage::kRender, done_,
+                       static_cast<std::int64_t>(shot_->plan.frames.size()), frame,
                        seconds_since(start)});
         }
         return {};

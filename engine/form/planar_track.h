@@ -13,8 +13,8 @@ class PlanarTracker {
   public:
     /// Places on one frame, plate pixels.
     explicit PlanarTracker(std::vector<Vec2> places);
-    /// `there_from_here`: the motion from the frame of the places to `frame`. The homography is
-    /// fitted again to the four fifths that fit it best. Errors: Usage (too few places),
+    /// `there_from_here`: the motion from the frame of the places to `frame`. What moves otherwise
+    /// than most is left out (fit_plane()). Errors: Usage (too few places),
     /// RenderFailed (the motion is not that of a plane).
     [[nodiscard]] Status add(int frame, const LatticeField& there_from_here);
     [[nodiscard]] const CornerTrack& track() const { return track_; }

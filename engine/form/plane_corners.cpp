@@ -1,10 +1,12 @@
 #include "engine/form/plane_corners.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "engine/form/homography_fit.h"
+#include "engine/form/eigen_types.h"
+#include "engine/motion/plane_fit.h"
 
 namespace weft {
 namespace {
@@ -86,12 +88,12 @@ class Growing {
     Vector2 reach_;
 };
 
-// How far places are off what the homography says, the median.
-double off_plane(const Eigen::Matrix3d& map, const std::vector<Vector2>& flat,
-                 const std::vector<Vector2>& picture) {
+// How far places are off what the homography says, the median; px.
+double off_plane_px(const glm::dmat3& map, const std::vector<PlacePair>& pairs) {
     std::vector<double> off;
-    for (std::size_t k = 0; k < flat.size(); ++k)
-        off.push_back(((map * flat[k].homogeneous()).hnormalized() - picture[k]).norm());
+    off.reserve(pairs.size());
+    for (const PlacePair& pair : pairs)
+        off.push_back(static_cast<double>(glm::distance(mapped(map, pair.from), pair.to)));
     const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
     std::nth_element(off.begin(), middle, off.end());
     return *middle;
@@ -108,22 +110,19 @@ std::optional<Quad<float>> plane_corners(const FormMap& form, ViewU8x1 matte) {
     const double side = std::max(places.box.width(), places.box.height());
     const Vec2 middle = 0.5f * Vec2(static_cast<float>(places.box.x0 + places.box.x1),
                                     static_cast<float>(places.box.y0 + places.box.y1));
-    const auto relative = [&](Vec2 p) {
-        return Vector2(static_cast<double>(p.x - middle.x) / side,
-                       static_cast<double>(p.y - middle.y) / side);
-    };
     // A plane laid flat is a homography of its picture.
-    std::vector<Vector2> picture, flat;
-    for (const Vec2 p : places.inside) {
-        picture.push_back(relative(p));
-        flat.push_back(relative(p + form.at(p)));
-    }
-    const auto map = fit_homography(flat, picture);
-    if (!map || (pass && off_plane(*map, flat, picture) > kMostOff)) return std::nullopt;
+    std::vector<PlacePair> picture_of_flat;
+    picture_of_flat.reserve(places.inside.size());
+    for (const Vec2 p : places.inside)
+        picture_of_flat.push_back({p + form.at(p), p});
+    const auto fit = fit_homography(picture_of_flat);
+    if (!fit || (pass && off_plane_px(*fit, picture_of_flat) > kMostOff * side))
+        return std::nullopt;
+    const Matrix3 map = in_units(*fit, middle, side);
     const Growing growing(
-        *map, Vector2(0.5 * places.box.width() / side, 0.5 * places.box.height() / side));
+        map, Vector2(0.5 * places.box.width() / side, 0.5 * places.box.height() / side));
     // From the place that the middle of the box shows.
-    const Eigen::Vector3d at = map->inverse() * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d at = map.inverse() * Eigen::Vector3d::UnitZ();
     if (!(std::abs(at.z()) > 1e-9)) return std::nullopt;
     const Vector2 centre = at.hnormalized();
     const Sides first{centre.x() - kFirst, centre.y() - kFirst, centre.x() + kFirst,
@@ -132,7 +131,7 @@ std::optional<Quad<float>> plane_corners(const FormMap& form, ViewU8x1 matte) {
     Quad<float> out{};
     std::size_t k = 0;
     for (const Vector2& corner : Growing::corners(growing.grown(first, kSideStep))) {
-        const Vector2 p = (*map * corner.homogeneous()).hnormalized() * side;
+        const Vector2 p = (map * corner.homogeneous()).hnormalized() * side;
         out[k++] = middle + Vec2(static_cast<float>(p.x()), static_cast<float>(p.y()));
     }
     if (!is_convex(out)) return std::nullopt;

@@ -12,11 +12,11 @@
 #include "engine/core/parallel.h"
 #include "engine/form/eigen_types.h"
 #include "engine/form/exact_math.h"
-#include "engine/form/homography_fit.h"
 #include "engine/form/plane_starts.h"
 #include "engine/form/rigid_bundle.h"
 #include "engine/form/still_camera.h"
 #include "engine/form/surface_distance.h"
+#include "engine/motion/plane_fit.h"
 
 namespace weft {
 namespace {
@@ -124,18 +124,14 @@ std::optional<Problem> problem_of(const std::vector<FrameMatches>& frames, Size 
     flat.radius = std::sqrt(squares / count);
     if (!(flat.radius > 4 * out.least_sigma)) return std::nullopt;
     flat.reach = most / flat.radius;
-    const auto centred = [&](const std::vector<Vec2>& places) {
-        std::vector<Eigen::Vector2d> to;
-        to.reserve(places.size());
-        for (const Vec2 p : places)
-            to.emplace_back((static_cast<double>(p.x) - flat.middle.x) / flat.long_side,
-                            (static_cast<double>(p.y) - flat.middle.y) / flat.long_side);
-        return to;
-    };
     for (const FrameMatches& m : frames) {
-        const auto h = fit_homography(centred(m.reference), centred(m.frame));
+        std::vector<PlacePair> pairs;
+        pairs.reserve(m.reference.size());
+        for (std::size_t k = 0; k < m.reference.size(); ++k)
+            pairs.push_back({m.reference[k], m.frame[k]});
+        const auto h = fit_homography(pairs);
         if (!h) return std::nullopt;
-        out.homographies.push_back(*h);
+        out.homographies.push_back(in_units(*h, flat.middle, flat.long_side));
     }
     out.places = frames.front().reference;
     return out;

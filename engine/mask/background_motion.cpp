@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
-#include "engine/mask/plane_motion.h"
+#include "engine/mask/piece_motion.h"
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
@@ -17,8 +17,8 @@ constexpr std::array<int, 2> kRadii = {3, 12};  // of local corrections, in step
 constexpr std::array<float, 2> kSay = {1.0f, 0.05f};
 constexpr float kPlaneWeight = 0.01f;  // weight of "no correction" against them
 
-std::vector<MotionSample> samples_of(ViewF1 phi, const FlowField& flow, float clearance_px) {
-    std::vector<MotionSample> samples;
+std::vector<PlacePair> samples_of(ViewF1 phi, const FlowField& flow, float clearance_px) {
+    std::vector<PlacePair> samples;
     for (int y = kSampleStep / 2; y < phi.height(); y += kSampleStep) {
         for (int x = kSampleStep / 2; x < phi.width(); x += kSampleStep) {
             if (flow.valid.row(y)[x] == 0) continue;
@@ -27,21 +27,23 @@ std::vector<MotionSample> samples_of(ViewF1 phi, const FlowField& flow, float cl
                 -clearance_px) {
                 continue;
             }
-            samples.push_back({x, y, Vec2(d[0], d[1])});
+            samples.push_back(pair_at(flow, x, y));
         }
     }
     return samples;
 }
 
 // What the plane misses, averaged near by, on a grid of every kSampleStep-th pixel.
-ImageF2 local_corrections(const PlaneMotion& plane, const std::vector<MotionSample>& samples,
+ImageF2 local_corrections(const glm::dmat3& plane, const std::vector<PlacePair>& samples,
                           Size size) {
     const int w = (size.width + kSampleStep - 1) / kSampleStep,
               h = (size.height + kSampleStep - 1) / kSampleStep;
     cv::Mat misses(h, w, CV_32FC3, cv::Scalar::all(0));
-    for (const MotionSample& s : samples) {
-        const Vec2 miss = s.d - plane.at(s.x, s.y);
-        misses.at<cv::Vec3f>(s.y / kSampleStep, s.x / kSampleStep) = cv::Vec3f(1, miss.x, miss.y);
+    for (const PlacePair& s : samples) {
+        const Vec2 miss = s.to - mapped(plane, s.from);
+        misses.at<cv::Vec3f>(static_cast<int>(s.from.y) / kSampleStep,
+                             static_cast<int>(s.from.x) / kSampleStep) =
+            cv::Vec3f(1, miss.x, miss.y);
     }
     ImageF2 corrections(w, h);
     std::array<cv::Mat, kRadii.size()> means;
@@ -66,17 +68,17 @@ ImageF2 local_corrections(const PlaneMotion& plane, const std::vector<MotionSamp
 
 ImageF2 background_motion(ViewF1 prev_phi, const FlowField& prev_from_cur, float clearance_px) {
     const Size size = prev_phi.size();
-    const std::vector<MotionSample> samples = samples_of(prev_phi, prev_from_cur, clearance_px);
-    const PlaneMotion plane(samples, size);
+    const std::vector<PlacePair> samples = samples_of(prev_phi, prev_from_cur, clearance_px);
+    const glm::dmat3 plane = fit_piece(samples);
     const ImageF2 corrections = local_corrections(plane, samples, size);
     ImageF2 motion(size);
     parallel_rows(size.height, 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < size.width; ++x) {
                 const Vec2 d =
-                    plane.at(x, y) + sample_bilinear(corrections,
-                                                     static_cast<float>(x) / kSampleStep - 0.5f,
-                                                     static_cast<float>(y) / kSampleStep - 0.5f);
+                    moved_by(plane, Vec2(x, y)) +
+                    sample_bilinear(corrections, static_cast<float>(x) / kSampleStep - 0.5f,
+                                    static_cast<float>(y) / kSampleStep - 0.5f);
                 motion.pixel(x, y)[0] = d.x;
                 motion.pixel(x, y)[1] = d.y;
             }

@@ -6,10 +6,10 @@
 
 namespace weft {
 
-/// Motion (H×W×2 pixels, defined everywhere) of what lies outside the shape: one moving plane (8
-/// parameters, Longuet-Higgins & Prazdny 1980) fitted robustly to all of it, plus local corrections
-/// near the places where they were measured. `prev_phi`: the shape's signed distance (pixels) on
-/// the frame that the motion leads to. Deterministic.
+/// Motion (H×W×2 pixels, defined everywhere) of what lies outside the shape: one moving plane
+/// fitted robustly to all of it (fit_plane()), plus local corrections near the places where they
+/// were measured. `prev_phi`: the shape's signed distance (pixels) on the frame that the motion
+/// leads to. Deterministic.
 [[nodiscard]] ImageF2 background_motion(ViewF1 prev_phi, const FlowField& prev_from_cur,
                                         float clearance_px);
 

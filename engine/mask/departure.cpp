@@ -10,7 +10,7 @@
 #include "engine/core/smooth_step.h"
 #include "engine/mask/background_motion.h"
 #include "engine/mask/motion_support.h"
-#include "engine/mask/plane_motion.h"
+#include "engine/mask/piece_motion.h"
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
@@ -51,18 +51,17 @@ int stride_of(float px, float unit_px) {
     return std::max(2, static_cast<int>(std::lround(px * unit_px)));
 }
 
-PlaneMotion background_plane(ViewF1 prev_phi, const FlowField& flow, float unit_px) {
+glm::dmat3 background_plane(ViewF1 prev_phi, const FlowField& flow, float unit_px) {
     const int stride = stride_of(2 * kStride_px, unit_px);
-    std::vector<MotionSample> samples;
+    std::vector<PlacePair> samples;
     for (int y = stride / 2; y < prev_phi.height(); y += stride) {
         for (int x = stride / 2; x < prev_phi.width(); x += stride) {
             if (flow.valid.row(y)[x] == 0) continue;
             if (before(prev_phi, flow, x, y) > -kOutside_px * unit_px) continue;
-            const float* d = flow.d.pixel(x, y);
-            samples.push_back({x, y, Vec2(d[0], d[1])});
+            samples.push_back(pair_at(flow, x, y));
         }
     }
-    return {std::move(samples), prev_phi.size()};
+    return fit_piece(samples);
 }
 
 template <std::size_t N>
@@ -95,7 +94,7 @@ struct Departure::Step {
     ViewF1 prev_phi;
     const FlowField& flow;
     float unit_px;
-    PlaneMotion plane;
+    glm::dmat3 plane;
     ImageF2 near;
 
     Step(ViewF1 phi, const FlowField& prev_from_cur, float unit)
@@ -110,7 +109,7 @@ struct Departure::Step {
         const float* d = flow.d.pixel(x, y);
         const float* n = near.pixel(x, y);
         const Vec2 motion(d[0], d[1]);
-        return std::min(glm::length(motion - plane.at(x, y)),
+        return std::min(glm::length(motion - moved_by(plane, Vec2(x, y))),
                         glm::length(motion - Vec2(n[0], n[1]))) /
                unit_px;
     }

@@ -7,7 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/mask/background_motion.h"
-#include "engine/mask/plane_motion.h"
+#include "engine/mask/piece_motion.h"
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
@@ -39,7 +39,7 @@ void set_motion(FlowField& flow, int x, int y, Vec2 d) {
 // How much of a surface is seen, and how that moves.
 struct Seen {
     int all = 0, hidden = 0;  // samples of the surface
-    std::vector<MotionSample> motion;
+    std::vector<PlacePair> motion;
 
     Seen(const FlowField& flow, const Matte& hidden_now, const Matte& mixed, const ImageF1& phi) {
         constexpr int kStep = 4;
@@ -51,7 +51,8 @@ struct Seen {
                     continue;
                 ++all;
                 hidden += hidden_now.at(x, y) != 0 ? 1 : 0;
-                if (mixed.at(x, y) == 0 && flow.valid.at(x, y) != 0) motion.push_back({x, y, d});
+                if (mixed.at(x, y) == 0 && flow.valid.at(x, y) != 0)
+                    motion.push_back(pair_at(flow, x, y));
             }
         }
     }
@@ -115,10 +116,10 @@ FlowField motion_behind(const FlowField& measured, const Matte& hidden, const Im
     grow(mixed, static_cast<int>(std::lround(kMixedBands * band_px)));
     const Seen seen(measured, hidden, mixed, prev_phi);
     if (!seen.enough()) return by_background(measured, mixed, prev_phi, band_px);
-    const PlaneMotion plane(seen.motion, measured.size());
+    const glm::dmat3 plane = fit_piece(seen.motion);
     FlowField flow = measured;
     visit_hidden(hidden, rect_of(flow.size()), [&](int x, int y) {
-        set_motion(flow, x, y, plane.at(x, y));
+        set_motion(flow, x, y, moved_by(plane, Vec2(x, y)));
         flow.valid.at(x, y) = 0;
     });
     return flow;

@@ -7,7 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
-#include "engine/mask/plane_motion.h"
+#include "engine/mask/piece_motion.h"
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
@@ -23,16 +23,16 @@ constexpr float kTogether_px = 0.8f, kApart_px = 2;  // between both motions
 constexpr float kSidesMemory = 0.9f;                 // of the evidence, from frame to frame
 
 // Of what is surely inside, about as many at every size.
-std::vector<MotionSample> samples_inside(const SidesInput& in) {
+std::vector<PlacePair> samples_inside(const SidesInput& in) {
     const int step = std::max(2, static_cast<int>(std::lround(kEvery_px * in.unit_px)));
-    std::vector<MotionSample> out;
+    std::vector<PlacePair> out;
     for (int y = in.area.y0; y < in.area.y1; y += step) {
         for (int x = in.area.x0; x < in.area.x1; x += step) {
             if (in.flow.valid.row(y)[x] == 0) continue;
             const float* d = in.flow.d.pixel(x, y);
             if (sample_bilinear(in.prev_phi, static_cast<float>(x) + d[0],
                                 static_cast<float>(y) + d[1]) >= kInside_px * in.unit_px) {
-                out.push_back({x, y, Vec2(d[0], d[1])});
+                out.push_back(pair_at(in.flow, x, y));
             }
         }
     }
@@ -40,11 +40,11 @@ std::vector<MotionSample> samples_inside(const SidesInput& in) {
 }
 
 // How far the surface moves as one piece, 0 to 1.
-float stiffness(const std::vector<MotionSample>& samples, const PlaneMotion& piece, float unit_px) {
+float stiffness(const std::vector<PlacePair>& samples, const glm::dmat3& piece, float unit_px) {
     if (samples.size() < kFewestSamples) return 0;
-    const auto close = std::count_if(samples.begin(), samples.end(), [&](const MotionSample& s) {
-        return glm::length(s.d - piece.at(s.x, s.y)) <
-               kClose_px * unit_px + kCloseShare * glm::length(s.d);
+    const auto close = std::count_if(samples.begin(), samples.end(), [&](const PlacePair& s) {
+        return glm::length(s.to - mapped(piece, s.from)) <
+               kClose_px * unit_px + kCloseShare * glm::length(s.to - s.from);
     });
     return smooth_step(static_cast<float>(close) / static_cast<float>(samples.size()), kBent,
                        kStiff);
@@ -61,8 +61,8 @@ float side_of(Vec2 motion, Vec2 surface, Vec2 around, float unit_px) {
 }
 
 ImageF1 MotionSides::advance(const SidesInput& in) {
-    const std::vector<MotionSample> samples = samples_inside(in);
-    const PlaneMotion piece(samples, in.flow.size());
+    const std::vector<PlacePair> samples = samples_inside(in);
+    const glm::dmat3 piece = fit_piece(samples);
     const float trust = stiffness(samples, piece, in.unit_px);
     ImageF1 out(in.area.size());
     parallel_rows(in.area.height(), 16, [&](int y0, int y1) {
@@ -72,9 +72,9 @@ ImageF1 MotionSides::advance(const SidesInput& in) {
                 if (in.flow.valid.row(fy)[fx] == 0) continue;
                 const float* d = in.flow.d.pixel(fx, fy);
                 const float* o = in.outside_motion.pixel(x, y);
-                const float now =
-                    trust > 0 ? side_of({d[0], d[1]}, piece.at(fx, fy), {o[0], o[1]}, in.unit_px)
-                              : 0;
+                const float now = trust > 0 ? side_of({d[0], d[1]}, moved_by(piece, Vec2(fx, fy)),
+                                                      {o[0], o[1]}, in.unit_px)
+                                            : 0;
                 const float before =
                     last(static_cast<float>(fx) + d[0], static_cast<float>(fy) + d[1]);
                 out.row(y)[x] = std::clamp(kSidesMemory * before + trust * now, -kMost, kMost);

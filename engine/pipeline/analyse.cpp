@@ -16,7 +16,7 @@ std::int64_t count_analysis_steps(const ShotPlan& plan, const AnalysisStore& sto
 
 Status analyse_shot(const ShotSource& source, const ShotPlan& plan, AnalysisStore& store,
                     const CancelToken& cancel, const ProgressFn& progress, const Backend* backend) {
-    ProgressEvent event{"analyse", 0, count_analysis_steps(plan, store), 0, 0};
+    ProgressEvent event{WorkStage::kAnalyse, 0, count_analysis_steps(plan, store), 0, 0};
     const PassContext context{source, plan, cancel,
                               [&](int frame, double seconds) {
                                   ++event.done;

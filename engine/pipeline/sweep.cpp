@@ -151,7 +151,7 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
                    FrameSpan span, const CancelToken& cancel, const ProgressFn& progress) {
     if (!plan.stages) return {};
     const PassContext context{source, plan, cancel, {}, nullptr};
-    ProgressEvent event{"motion", 0, static_cast<std::int64_t>(frames.size()), 0, 0};
+    ProgressEvent event{WorkStage::kMotion, 0, static_cast<std::int64_t>(frames.size()), 0, 0};
     std::optional<std::pair<int, SweepFrame>> last;
     for (const int frame : frames) {
         const auto start = Clock::now();

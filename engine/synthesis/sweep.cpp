@@ -101,7 +101,7 @@ bool Sweep::run(PlaneStats& stats, const CancelToken& cancel, const ProgressFn& 
         if (!progress || stopped_) return;
         const std::lock_guard lock(progress_mutex);
         done += static_cast<std::int64_t>(bands_[i].y1 - bands_[i].y0) * size.width;
-        progress({"synthesise", done, area, 0, 0});
+        progress({WorkStage::kSynthesise, done, area, 0, 0});
     });
     double search_s = 0, seam_s = 0, busy_s = 0;
     for (const Band& band : bands_) {

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     job.project.output.path = argv[3];
     job.existing = weft::ExistingFrames::kResume;
     const auto result = weft::run_job(job, weft::CancelToken(), [](const weft::ProgressEvent& e) {
-        std::printf("%s %lld/%lld\n", e.stage.c_str(), static_cast<long long>(e.done),
+        std::printf("%s %lld/%lld\n", e.name().c_str(), static_cast<long long>(e.done),
                     static_cast<long long>(e.total));
     });
     if (result) return 0;

@@ -11,7 +11,7 @@ using ::testing::IsEmpty;
 using Cancel = ShotTest;
 
 // Cancels when the `at`-th event of a stage has come.
-Expected<JobResult> run_until(const JobSpec& job, const std::string& stage, int at, int exit) {
+Expected<JobResult> run_until(const JobSpec& job, WorkStage stage, int at, int exit) {
     const CancelToken cancel;
     int seen = 0;
     return run_job(job, cancel, [&](const ProgressEvent& event) {
@@ -32,11 +32,13 @@ TEST_F(Cancel, AtAnyPointAndResumed) {
     ASSERT_TRUE(run_job(spec("whole"), {}, {}));
     const auto whole = contents("whole");
     ASSERT_EQ(whole.size(), static_cast<std::size_t>(kFrames));
-    const std::pair<const char*, int> points[]{
-        {"analyse", 1}, {"analyse", kFrames / 2}, {"render", 1}, {"render", kFrames / 2}};
+    const std::pair<WorkStage, int> points[]{{WorkStage::kAnalyse, 1},
+                                             {WorkStage::kAnalyse, kFrames / 2},
+                                             {WorkStage::kRender, 1},
+                                             {WorkStage::kRender, kFrames / 2}};
     for (const auto& [stage, at] : points) {
-        SCOPED_TRACE(std::string(stage) + " " + std::to_string(at));
-        const std::string out = std::string(stage) + std::to_string(at);
+        SCOPED_TRACE(std::string(name_of(stage)) + " " + std::to_string(at));
+        const std::string out = std::string(name_of(stage)) + std::to_string(at);
         JobSpec job = spec(out);
         job.threads = 1;
         job.cache.folder = in("cache." + out);
@@ -74,7 +76,7 @@ TEST_F(Cancel, BetweenTwoReferences) {
             SCOPED_TRACE(name + ", stopped at " + std::to_string(at));
             const std::string out = name + "." + std::to_string(at);
             JobSpec job = anchored(out);
-            ASSERT_FALSE(run_until(job, "analyse", at, 143));
+            ASSERT_FALSE(run_until(job, WorkStage::kAnalyse, at, 143));
             job.existing = ExistingFrames::kSkip;
             ASSERT_TRUE(run_job(job, {}, {}));
             EXPECT_EQ(contents(out), whole);
@@ -98,7 +100,7 @@ TEST_F(Cancel, APartialAnalysisIsCompleted) {
 TEST_F(Cancel, AfterTheLastFrameIsTooLate) {
     JobSpec job = spec("out");
     job.threads = 1;
-    EXPECT_TRUE(run_until(job, "render", kFrames, 143));
+    EXPECT_TRUE(run_until(job, WorkStage::kRender, kFrames, 143));
     EXPECT_EQ(contents("out").size(), static_cast<std::size_t>(kFrames));
 }
 

@@ -29,11 +29,11 @@ TEST(FormText, SaysWhatShowedItAndHowSureItIs) {
               "curved surface, from 11 frames of motion, tilted 12° ± 0.3° in the middle, field of "
               "view 50°, believed to 93 %");
     FormReport form = found(Source::kShape, false, 1, 1, 5, 0, 49);
-    form.drawn = "cylinder";
+    form.drawn = FormGuideKind::kCylinder;
     form.amount = 0.5f;
     EXPECT_EQ(form_text(form), "cylinder, as drawn, field of view 49°, amount 0.5");
     form = found(Source::kShape, true, 1, 1, 63.6f, 4, 49);
-    form.drawn = "parallel strokes";
+    form.drawn = FormGuideKind::kParallel;
     EXPECT_EQ(form_text(form), "plane, from parallel strokes, tilted 64° ± 4°, field of view 49°");
     form = found(Source::kPass, false, 1, 1, 0, 0, 0);
     form.pass = "the depth pass";

@@ -21,7 +21,7 @@ TEST_F(FrameFailure, TheFirstIsReportedAndThoseBeforeItAreThere) {
         };
         // Folders where frames are to be, once the outputs have been checked.
         const auto result = run_job(job, {}, [&](const ProgressEvent& event) {
-            if (event.stage != "analyse") return;
+            if (event.stage != WorkStage::kAnalyse) return;
             for (const int frame : {3, 5})
                 std::filesystem::create_directories(name_of(frame) / "x");
         });

@@ -94,7 +94,7 @@ TEST_F(Watch, ARunNamesTheReplacedInput) {
         bool replaced = false;
         const JobSpec job = spec(std::string("out_") + fs::path(name).stem().string());
         const auto result = run_job(job, {}, [&](const ProgressEvent& event) {
-            if (event.stage != "render" || replaced) return;
+            if (event.stage != WorkStage::kRender || replaced) return;
             replaced = true;
             ImageF3 other = image->rgb;
             other.pixel(3, 3)[0] = 1 - other.pixel(3, 3)[0];

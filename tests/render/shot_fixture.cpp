@@ -61,8 +61,8 @@ std::map<std::string, std::string> ShotTest::contents(const std::string& folder)
 
 int ShotTest::analysed_steps(const JobSpec& job) const {
     int steps = 0;
-    const auto result =
-        run_job(job, {}, [&](const ProgressEvent& event) { steps += event.stage == "analyse"; });
+    const auto result = run_job(
+        job, {}, [&](const ProgressEvent& event) { steps += event.stage == WorkStage::kAnalyse; });
     EXPECT_TRUE(result) << result.error().text();
     return steps;
 }

@@ -199,7 +199,7 @@ TEST_F(SessionFiles, CollectingIsShownAndGivenUpOnClosing) {
 TEST(CollectRun, CopiesShareTheirCounts) {
     const CollectRun run("/archive/shot");
     const CollectRun copy = run;
-    copy.note({"collect", 3, 7, 0, 0});
+    copy.note({WorkStage::kCollect, 3, 7, 0, 0});
     copy.cancel.cancel();
     EXPECT_EQ(run.done(), 3);
     EXPECT_EQ(run.total(), 7);

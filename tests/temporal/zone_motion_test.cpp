@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/core/rng.h"
-#include "engine/motion/plane_fit.h"
 #include "tests/motion/pictures.h"
 
 namespace weft {
@@ -93,30 +92,6 @@ void expect_same_outside(const LatticeField& before, const LatticeField& after) 
             ASSERT_EQ(a.pixel(x, y)[1], b.pixel(x, y)[1]) << x << "," << y;
         }
     }
-}
-
-TEST(PlaneFit, FindsAHomographyUnderOutliers) {
-    std::vector<PlacePair> pairs;
-    for (int k = 0; k < 100; ++k) {
-        const Vec2 p(20 + 7 * (k % 10), 30 + 9 * (k / 10));
-        pairs.push_back({p, wall(p) + (k % 4 == 0 ? 10.0f * noise(p) : Vec2(0))});
-    }
-    const glm::dmat3 found = fit_plane(pairs);
-    for (const Vec2 p : {Vec2(20, 30), Vec2(83, 111), Vec2(50, 70)})
-        EXPECT_LT(distance(mapped(found, p), wall(p)), 0.1f);
-}
-
-TEST(PlaneFit, PlacesOnALineKeepTheirScaleAcrossIt) {
-    std::vector<PlacePair> pairs;
-    pairs.reserve(40);
-    for (int k = 0; k < 40; ++k)
-        pairs.push_back({Vec2(10 + k, 50), Vec2(10 + k, 50) + Vec2(5, 3)});
-    EXPECT_LT(distance(mapped(fit_plane(pairs), {30, 60}), {35, 63}), 0.2f);
-}
-
-TEST(PlaneFit, FewPlacesMoveTogetherAndNoneStayPut) {
-    EXPECT_LT(distance(mapped(fit_plane({{{1, 2}, {4, 6}}}), {10, 10}), {13, 14}), 1e-4f);
-    EXPECT_EQ(mapped(fit_plane({}), {10, 10}), Vec2(10, 10));
 }
 
 TEST(ZoneMotion, WithoutThePictureTheWallGoesOnThroughTheZone) {

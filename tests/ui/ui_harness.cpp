@@ -115,7 +115,7 @@ SessionView normal_view() {
     job.state = JobState::kRunning;
     job.label = "Shot, frames 1001-1010";
     job.output = "/out/####.png";
-    job.stage = "render";
+    job.stage = WorkStage::kRender;
     job.done = 3;
     job.total = 10;
     v.jobs.push_back(job);

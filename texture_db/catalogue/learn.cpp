@@ -42,7 +42,7 @@ Status renew_features(Database& database, const CancelToken& cancel, const Progr
         WEFT_CHECK_OK(transaction.commit());
         after = batch.back().key;
         done += static_cast<std::int64_t>(batch.size());
-        if (progress) progress({"measure", done, total, 0, 0});
+        if (progress) progress({WorkStage::kMeasure, done, total, 0, 0});
     }
     return {};
 }
@@ -70,9 +70,9 @@ Status train_descriptor(Database& database, const CancelToken& cancel, const Pro
     }
     for (int m = 0; m < materials.size(); ++m)
         data.materials.push_back(materials.text(m));
-    if (progress) progress({"learn", 0, 2, 0, 0});
+    if (progress) progress(ProgressEvent::titled("learn", 0, 2));
     WEFT_TRY(model, learn_descriptor(data));
-    if (progress) progress({"learn", 1, 2, 0, 0});
+    if (progress) progress(ProgressEvent::titled("learn", 1, 2));
     if (cancel.cancelled())
         return fail(static_cast<ErrorCode>(cancel.reason()), "Training was stopped.");
     std::vector<std::vector<float>> descriptors(keys.size());
@@ -90,7 +90,7 @@ Status train_descriptor(Database& database, const CancelToken& cancel, const Pro
     }
     WEFT_CHECK_OK(count_change(database));
     WEFT_CHECK_OK(transaction.commit());
-    if (progress) progress({"learn", 2, 2, 0, 0});
+    if (progress) progress(ProgressEvent::titled("learn", 2, 2));
     return {};
 }
 

@@ -89,8 +89,8 @@ Status add_starter_textures(TextureLibrary& library, const CancelToken& cancel,
         done = end;
         WEFT_CHECK_OK(library.set_note(kDoneNote, done_note(done)));
         if (progress) {
-            progress({"starter", static_cast<std::int64_t>(done),
-                      static_cast<std::int64_t>(items.size()), 0, 0});
+            progress(ProgressEvent::titled("starter", static_cast<std::int64_t>(done),
+                                           static_cast<std::int64_t>(items.size())));
         }
     }
     WEFT_TRY(stats, library.stats());

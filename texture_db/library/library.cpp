@@ -267,10 +267,10 @@ Expected<int> TextureLibrary::remove_outliers(
     {
         const std::scoped_lock lock(state_->mutex);
         WEFT_CHECK_OK(state_->refresh());
-        if (progress) progress({"vote", 0, 1, 0, 0});
+        if (progress) progress(ProgressEvent::titled("vote", 0, 1));
         WEFT_TRY(out, weft::remove_outliers(*state_->database, *state_->index, was_inspected));
         removed = out;
-        if (progress) progress({"vote", 1, 1, 0, 0});
+        if (progress) progress(ProgressEvent::titled("vote", 1, 1));
     }
     WEFT_CHECK_OK(train_descriptor(cancel, progress));
     return removed;

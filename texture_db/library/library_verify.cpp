@@ -63,8 +63,8 @@ Expected<std::vector<LibraryFault>> TextureLibrary::verify(const CancelToken& ca
             }
         }
         if (progress && (i % 256 == 255 || i + 1 == rows.size())) {
-            progress({"verify", static_cast<std::int64_t>(i + 1),
-                      static_cast<std::int64_t>(rows.size()), 0, 0});
+            progress(ProgressEvent::titled("verify", static_cast<std::int64_t>(i + 1),
+                                           static_cast<std::int64_t>(rows.size())));
         }
     }
     return faults;

@@ -114,7 +114,7 @@ Status encode_samples(Database& database, const std::string& folder, ImageTextMo
         WEFT_TRY(seen, encode_batch(database, *model, unseen, after));
         if (seen == 0) break;
         done += seen;
-        if (progress) progress({"look", done, total, 0, 0});
+        if (progress) progress(ProgressEvent::titled("look", done, total));
     }
     return count_change(database);
 }

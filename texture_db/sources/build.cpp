@@ -113,7 +113,7 @@ class Builder {
         WEFT_TRY(note, library_.note(key));
         if (note == "done") return {};
         if (cancel_.cancelled()) return tl::unexpected(stopped(cancel_));
-        if (progress_) progress_({"download " + name, 0, 1, 0, 0});
+        if (progress_) progress_(ProgressEvent::titled("download " + name, 0, 1));
         auto unpacked = fetch(name);
         if (!unpacked) {
             if (unpacked.error().code != ErrorCode::kUnreadable)
@@ -135,8 +135,8 @@ class Builder {
             at += n;
             WEFT_CHECK_OK(library_.set_note(key, std::to_string(at)));
             if (progress_) {
-                progress_({name, static_cast<std::int64_t>(at),
-                           static_cast<std::int64_t>(pictures.photos.size()), 0, 0});
+                progress_(ProgressEvent::titled(name, static_cast<std::int64_t>(at),
+                                                static_cast<std::int64_t>(pictures.photos.size())));
             }
         }
         WEFT_CHECK_OK(library_.set_note(key, "done"));
@@ -150,7 +150,7 @@ class Builder {
         if (fs::exists(mark)) return folder;
         WEFT_TRY(info, find_package_info(name));
         WEFT_TRY(deb, download_package(info, work_, cancel_));
-        if (progress_) progress_({"unpack " + name, 0, 1, 0, 0});
+        if (progress_) progress_(ProgressEvent::titled("unpack " + name, 0, 1));
         WEFT_CHECK_OK(unpack_package(deb, folder, cancel_));
         WEFT_TRY(made, run_program({"touch", mark}, {}, cancel_));
         (void)made;

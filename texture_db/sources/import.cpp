@@ -148,8 +148,8 @@ Expected<ImportReport> import_pictures(TextureLibrary& library,
                     library.set_note(note_key(todo[at + i].file), stamp_of(todo[at + i].file)));
         }
         if (progress) {
-            progress({"import", static_cast<std::int64_t>(at + n),
-                      static_cast<std::int64_t>(todo.size()), 0, 0});
+            progress(ProgressEvent::titled("import", static_cast<std::int64_t>(at + n),
+                                           static_cast<std::int64_t>(todo.size())));
         }
     }
     report.seconds = seconds_since(start);

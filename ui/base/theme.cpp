@@ -1,6 +1,7 @@
 #include "ui/base/theme.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/core/input_file.h"
@@ -12,6 +13,29 @@ namespace {
 constexpr ImU32 rgb(unsigned hex) {
     return IM_COL32((hex >> 16) & 255, (hex >> 8) & 255, hex & 255, 255);
 }
+
+struct Shade {
+    ImU32 Theme::*of;
+    ImU32 dark, light;
+};
+constexpr std::array kShades{
+    Shade{&Theme::surround, rgb(0x1E1E1E), rgb(0xBDBDBD)},
+    Shade{&Theme::panel, rgb(0x262626), rgb(0xE4E4E4)},
+    Shade{&Theme::raised, rgb(0x343434), rgb(0xF4F4F4)},
+    Shade{&Theme::field, rgb(0x1A1A1A), rgb(0xFAFAFA)},
+    Shade{&Theme::line, rgb(0x141414), rgb(0xBEBEBE)},
+    Shade{&Theme::text, rgb(0xDADADA), rgb(0x202020)},
+    Shade{&Theme::quiet, rgb(0x9C9C9C), rgb(0x5C5C5C)},
+    Shade{&Theme::off, rgb(0x616161), rgb(0x9A9A9A)},
+    Shade{&Theme::accent, rgb(0x4F94DC), rgb(0x2B6CB3)},
+    Shade{&Theme::accent_hover, rgb(0x62A4EA), rgb(0x3B7FC6)},
+    Shade{&Theme::accent_press, rgb(0x3B7FC6), rgb(0x22588F)},
+    Shade{&Theme::on_accent, rgb(0x0E1620), rgb(0xFFFFFF)},
+    Shade{&Theme::good, rgb(0x58A86B), rgb(0x19522A)},
+    Shade{&Theme::warn, rgb(0xD9A441), rgb(0x6B4400)},
+    Shade{&Theme::bad, rgb(0xD8605A), rgb(0x8E231E)},
+    Shade{&Theme::hover, IM_COL32(255, 255, 255, 16), IM_COL32(0, 0, 0, 18)},
+    Shade{&Theme::scrim, IM_COL32(24, 24, 24, 220), IM_COL32(244, 244, 244, 230)}};
 
 constexpr const char* kRegular = "/usr/share/fonts/opentype/inter/Inter-Regular.otf";
 constexpr const char* kStrong = "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf";
@@ -72,43 +96,8 @@ void make_figures_tabular(ImFont* font) {
 Theme make_theme(bool dark, bool grey_surround, float scale) {
     Theme t{};
     t.scale = scale;
-    if (dark) {
-        t.surround = rgb(0x1E1E1E);
-        t.panel = rgb(0x262626);
-        t.raised = rgb(0x343434);
-        t.field = rgb(0x1A1A1A);
-        t.line = rgb(0x141414);
-        t.text = rgb(0xDADADA);
-        t.quiet = rgb(0x9C9C9C);
-        t.off = rgb(0x616161);
-        t.accent = rgb(0x4F94DC);
-        t.accent_hover = rgb(0x62A4EA);
-        t.accent_press = rgb(0x3B7FC6);
-        t.on_accent = rgb(0x0E1620);
-        t.good = rgb(0x58A86B);
-        t.warn = rgb(0xD9A441);
-        t.bad = rgb(0xD8605A);
-        t.hover = IM_COL32(255, 255, 255, 16);
-        t.scrim = IM_COL32(24, 24, 24, 220);
-    } else {
-        t.surround = rgb(0xBDBDBD);
-        t.panel = rgb(0xE4E4E4);
-        t.raised = rgb(0xF4F4F4);
-        t.field = rgb(0xFAFAFA);
-        t.line = rgb(0xBEBEBE);
-        t.text = rgb(0x202020);
-        t.quiet = rgb(0x5C5C5C);
-        t.off = rgb(0x9A9A9A);
-        t.accent = rgb(0x2B6CB3);
-        t.accent_hover = rgb(0x3B7FC6);
-        t.accent_press = rgb(0x22588F);
-        t.on_accent = rgb(0xFFFFFF);
-        t.good = rgb(0x19522A);
-        t.warn = rgb(0x6B4400);
-        t.bad = rgb(0x8E231E);
-        t.hover = IM_COL32(0, 0, 0, 18);
-        t.scrim = IM_COL32(244, 244, 244, 230);
-    }
+    for (const Shade& shade : kShades)
+        t.*shade.of = dark ? shade.dark : shade.light;
     if (grey_surround) t.surround = rgb(0x767676);
     t.gap = t.px(8);
     t.pad = t.px(8);

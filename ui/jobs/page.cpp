@@ -130,10 +130,10 @@ void job_row(Ctx& c, const JobView& job) {
         list.AddRectFilled({x, bar_y}, {x + (right - x) * part, bar_y + t.px(6)},
                            state_color(t, job.state), t.px(3));
     std::string line = state_name(job.state);
-    if (job.state == JobState::kRunning && job.stage == "analyse") line = "Analysing";
-    if (job.state == JobState::kRunning && job.stage == "wait")
+    if (job.state == JobState::kRunning && job.stage == WorkStage::kAnalyse) line = "Analysing";
+    if (job.state == JobState::kRunning && job.stage == WorkStage::kWait)
         line = "Taking the editor's analysis";
-    if (job.state == JobState::kRunning && job.stage.empty()) line = "Starting";
+    if (job.state == JobState::kRunning && !job.stage) line = "Starting";
     if (!job.error.empty()) {
         line += ". " + job.error;
     } else {

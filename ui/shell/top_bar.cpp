@@ -240,9 +240,9 @@ void status_bar(Ctx& c, ImVec2 size) {
         if (job.state != JobState::kRunning) continue;
         const int percent = job.total > 0 ? 100 * job.done / job.total : 0;
         cell("Job " + std::to_string(job.id) + ": " +
-                 (job.stage == "render" ? ""
-                  : job.stage.empty()   ? "starting "
-                                        : job.stage + " ") +
+                 (job.stage == WorkStage::kRender ? ""
+                  : !job.stage                    ? "starting "
+                                                  : std::string(name_of(*job.stage)) + " ") +
                  std::to_string(percent) + "%  " + time_text(job.left_s),
              t.px(180), t.accent_hover);
     }

@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 ProgressFn plain_progress() {
     if (json_output()) return {};
     return [](const ProgressEvent& e) {
-        print(stderr, "weft: " + e.stage + " " + std::to_string(e.done) + "/" +
+        print(stderr, "weft: " + e.name() + " " + std::to_string(e.done) + "/" +
                           std::to_string(e.total) + "\n");
     };
 }

@@ -39,8 +39,8 @@ Project PreviewDesk::subject() const {
     return project;
 }
 
-// Painted mattes are carried to the other frames before a texture is chosen.
-void PreviewDesk::carry_mattes() {
+// Painted mattes are propagated to the other frames before a texture is chosen.
+void PreviewDesk::propagate_mattes() {
     Project project = use_.document.resolved();
     project.settings.quality = quality_;
     for (Leaf<Region>& region : project.regions) {
@@ -48,7 +48,7 @@ void PreviewDesk::carry_mattes() {
                            region->texture.sample.empty() && region->texture.plane.empty();
         region = region.with([&](Region& r) { r.enabled = waits; });
     }
-    use_.preview.carry(project, use_.shelf.unwritten(), use_.playback.frame());
+    use_.preview.propagate(project, use_.shelf.unwritten(), use_.playback.frame());
 }
 
 // While a setting is dragged, the next request waits for the picture of the one before. It would
@@ -93,7 +93,7 @@ void PreviewDesk::request(double now_s, const std::vector<CardRequest>& cards) {
         pending_ = false;
         return;
     }
-    carry_mattes();
+    propagate_mattes();
     Project shown = subject();
     has_subject_ = std::any_of(shown.regions.begin(), shown.regions.end(),
                                [](const Leaf<Region>& region) { return region->enabled; });

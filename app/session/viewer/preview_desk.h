@@ -60,7 +60,7 @@ class PreviewDesk {
         ask();
     }
     [[nodiscard]] bool awaits_dragged_picture(double now_s) const;
-    void carry_mattes();
+    void propagate_mattes();
     [[nodiscard]] PreviewRequest request_for(Project subject,
                                              const std::vector<CardRequest>& cards) const;
 

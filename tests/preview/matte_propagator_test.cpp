@@ -1,4 +1,4 @@
-#include "app/preview/matte_carrier.h"
+#include "app/preview/matte_propagator.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr Size kCarriedPlate{96, 64};
 
-class MatteCarrierTest : public testing::Test {
+class MattePropagatorTest : public testing::Test {
   protected:
     void SetUp() override {
         fs::create_directories(folder_);
@@ -41,10 +41,10 @@ class MatteCarrierTest : public testing::Test {
         matte.keyframes[1].path = (folder_ / "key.png").string();
         region.matte = Leaf<MatteSource>(matte);
         project_.regions.push_back(Leaf<Region>(region));
-        carrier_ = std::make_unique<MatteCarrier>(options_);
+        propagator_ = std::make_unique<MattePropagator>(options_);
     }
     void TearDown() override {
-        carrier_.reset();
+        propagator_.reset();
         fs::remove_all(folder_);
     }
     void write(const std::string& name, const ImageF3& picture) const {
@@ -63,7 +63,7 @@ class MatteCarrierTest : public testing::Test {
     bool wait_for(int frame, std::chrono::milliseconds patience = std::chrono::minutes(1)) const {
         const auto end = std::chrono::steady_clock::now() + patience;
         while (std::chrono::steady_clock::now() < end) {
-            if (const auto matte = carrier_->matte(wanted(frame)))
+            if (const auto matte = propagator_->matte(wanted(frame)))
                 return matte->at(44, 32) > 200 && matte->at(4, 4) == 0;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
@@ -89,30 +89,30 @@ class MatteCarrierTest : public testing::Test {
     }
 
     const fs::path folder_ =
-        fs::temp_directory_path() / ("weft_carrier_" + std::to_string(getpid()));
+        fs::temp_directory_path() / ("weft_propagator_" + std::to_string(getpid()));
     AnalysisCacheOptions options_;
     Project project_;
-    std::unique_ptr<MatteCarrier> carrier_;
+    std::unique_ptr<MattePropagator> propagator_;
 };
 
-TEST_F(MatteCarrierTest, MattesAreThereWhenATextureIsChosen) {
-    carrier_->carry(project_, {}, 1);
+TEST_F(MattePropagatorTest, MattesAreThereWhenATextureIsChosen) {
+    propagator_->propagate(project_, {}, 1);
     for (const int frame : {1, 3, 4})
         EXPECT_TRUE(wait_for(frame)) << frame;
-    EXPECT_GT(carrier_->changes(), 0u);
-    carrier_.reset();  // waits
+    EXPECT_GT(propagator_->changes(), 0u);
+    propagator_.reset();  // waits
     EXPECT_EQ(steps_left(), 0);
 }
 
-TEST_F(MatteCarrierTest, AMatteFromMemoryCountsOnceItsFileIsThere) {
+TEST_F(MattePropagatorTest, AMatteFromMemoryCountsOnceItsFileIsThere) {
     const auto key = read_matte((folder_ / "key.png").string(), {}, kCarriedPlate);
     ASSERT_TRUE(key);
     fs::remove(folder_ / "key.png");
     const std::string path = (folder_ / "key.png").string();
-    carrier_->carry(project_, {{path, std::make_shared<const Matte>(*key)}}, 1);
+    propagator_->propagate(project_, {{path, std::make_shared<const Matte>(*key)}}, 1);
     EXPECT_TRUE(wait_for(4));
     write("key.png", painted(255));
-    carrier_->carry(project_, {}, 1);
+    propagator_->propagate(project_, {}, 1);
     // The mattes from memory are shown meanwhile: they are the same.
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     while (steps_left() > 0 && std::chrono::steady_clock::now() < end)
@@ -120,12 +120,12 @@ TEST_F(MatteCarrierTest, AMatteFromMemoryCountsOnceItsFileIsThere) {
     EXPECT_EQ(steps_left(), 0);
 }
 
-TEST_F(MatteCarrierTest, AStrokeChangesWhatLiesBetweenItsNeighboursOnly) {
+TEST_F(MattePropagatorTest, AStrokeChangesWhatLiesBetweenItsNeighboursOnly) {
     set_keys({1, 2, 4});
-    carrier_->carry(project_, {}, 3);
+    propagator_->propagate(project_, {}, 3);
     for (const int frame : {1, 2, 3, 4})
         EXPECT_TRUE(wait_for(frame)) << frame;
-    carrier_.reset();
+    propagator_.reset();
     write("other.png", painted(200));
     project_.regions[0] = project_.regions[0].with([&](Region& r) {
         r.matte = r.matte.with(
@@ -137,27 +137,27 @@ TEST_F(MatteCarrierTest, AStrokeChangesWhatLiesBetweenItsNeighboursOnly) {
     EXPECT_EQ(steps_left(), 0) << "undone";
 }
 
-TEST_F(MatteCarrierTest, AMatteOfAnotherStateIsNone) {
-    carrier_->carry(project_, {}, 1);
+TEST_F(MattePropagatorTest, AMatteOfAnotherStateIsNone) {
+    propagator_->propagate(project_, {}, 1);
     EXPECT_TRUE(wait_for(4));
     const WantedMatte before = wanted(4);
     set_keys({1, 2});
-    EXPECT_FALSE(carrier_->matte(wanted(4))) << "asked for before it is carried";
-    EXPECT_TRUE(carrier_->matte(before)) << "until then the one before is there";
-    carrier_->carry(project_, {}, 1);
+    EXPECT_FALSE(propagator_->matte(wanted(4))) << "asked for before it is propagated";
+    EXPECT_TRUE(propagator_->matte(before)) << "until then the one before is there";
+    propagator_->propagate(project_, {}, 1);
     EXPECT_TRUE(wait_for(4));
-    EXPECT_FALSE(carrier_->matte(before));
+    EXPECT_FALSE(propagator_->matte(before));
 }
 
-TEST_F(MatteCarrierTest, PausesAndForgets) {
-    carrier_->pause();
-    carrier_->carry(project_, {}, 1);
+TEST_F(MattePropagatorTest, PausesAndForgets) {
+    propagator_->pause();
+    propagator_->propagate(project_, {}, 1);
     EXPECT_FALSE(wait_for(4, std::chrono::milliseconds(150)));
-    carrier_->resume();
+    propagator_->resume();
     EXPECT_TRUE(wait_for(4));
-    carrier_->clear();
-    EXPECT_FALSE(carrier_->matte(wanted(4))) << "it may be another matte by now";
-    carrier_->carry(project_, {}, 1);
+    propagator_->clear();
+    EXPECT_FALSE(propagator_->matte(wanted(4))) << "it may be another matte by now";
+    propagator_->propagate(project_, {}, 1);
     EXPECT_TRUE(wait_for(4));
 }
 

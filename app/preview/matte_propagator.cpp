@@ -1,4 +1,4 @@
-#include "app/preview/matte_carrier.h"
+#include "app/preview/matte_propagator.h"
 
 #include <algorithm>
 
@@ -13,11 +13,11 @@ constexpr std::size_t kCacheBytes = std::size_t{64} << 20;
 
 }  // namespace
 
-void MatteCarrier::carry(const Project& project, const PaintedMattes& painted, int frame) {
+void MattePropagator::propagate(const Project& project, const PaintedMattes& painted, int frame) {
     const bool any = std::any_of(project.regions.begin(), project.regions.end(),
                                  [](const Leaf<Region>& region) { return region->enabled; });
     if (!any) return clear();
-    // Once a matte has been written, its file names what was carried.
+    // Once a matte has been written, its file names what was propagated.
     std::string key = analysis_key(project);
     for (const auto& [path, matte] : painted)
         key += "\n" + path;
@@ -27,7 +27,7 @@ void MatteCarrier::carry(const Project& project, const PaintedMattes& painted, i
     start();
 }
 
-void MatteCarrier::start() {
+void MattePropagator::start() {
     if (paused_ || !asked_) return;
     (void)worker_.ask(asked_->key, [this, asked = asked_](const CancelToken& cancel) {
         work(*asked, cancel);
@@ -35,26 +35,26 @@ void MatteCarrier::start() {
     });
 }
 
-void MatteCarrier::pause() {
+void MattePropagator::pause() {
     paused_ = true;
     // An empty request cancels the one before.
     (void)worker_.ask({}, [](const CancelToken&) { return std::optional(true); });
 }
 
-void MatteCarrier::resume() {
+void MattePropagator::resume() {
     paused_ = false;
     start();
 }
 
-void MatteCarrier::clear() {
+void MattePropagator::clear() {
     if (!asked_) return;
     asked_.reset();
     ++document_;
     (void)worker_.ask({}, [](const CancelToken&) { return std::optional(true); });
 }
 
-void MatteCarrier::work(const Asked& asked, const CancelToken& cancel) {
-    const auto before = carried_.get();
+void MattePropagator::work(const Asked& asked, const CancelToken& cancel) {
+    const auto before = propagated_.get();
     if (before) before->store->mattes_written(*before->shot);
     OpenShotOptions options;
     options.textures = false;
@@ -68,7 +68,7 @@ void MatteCarrier::work(const Asked& asked, const CancelToken& cancel) {
     std::vector<std::string> warnings;
     const auto store = open_analysis_cache(**shot, cache_, warnings);
     if (!store) return;
-    carried_.put({*shot, *store, asked.document, asked.project});
+    propagated_.put({*shot, *store, asked.document, asked.project});
     ShotPlan plan = (*shot)->plan;
     plan.frames = (*shot)->plate->frames();
     const PassContext context{*(*shot)->source, plan, cancel, [&](int, double) { ++changes_; },
@@ -78,16 +78,16 @@ void MatteCarrier::work(const Asked& asked, const CancelToken& cancel) {
     ++changes_;
 }
 
-std::vector<int> MatteCarrier::reached(const WantedMatte& wanted) const {
-    const auto carried = carried_.get();
-    if (!carried || carried->document != document_.load()) return {};
-    return reached_in(carried->asked, *carried->shot, *carried->store, wanted);
+std::vector<int> MattePropagator::reached(const WantedMatte& wanted) const {
+    const auto propagated = propagated_.get();
+    if (!propagated || propagated->document != document_.load()) return {};
+    return reached_in(propagated->asked, *propagated->shot, *propagated->store, wanted);
 }
 
-Expected<Matte> MatteCarrier::matte(const WantedMatte& wanted) const {
-    const auto carried = carried_.get();
-    if (carried && carried->document == document_.load())
-        return matte_in(carried->asked, *carried->shot, *carried->store, wanted);
+Expected<Matte> MattePropagator::matte(const WantedMatte& wanted) const {
+    const auto propagated = propagated_.get();
+    if (propagated && propagated->document == document_.load())
+        return matte_in(propagated->asked, *propagated->shot, *propagated->store, wanted);
     return fail(ErrorCode::kMissingFrames, "The matte has not been propagated to frame " +
                                                std::to_string(wanted.frame) + " yet.");
 }

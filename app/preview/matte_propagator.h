@@ -19,17 +19,18 @@ namespace weft {
 struct WantedMatte;
 
 /// Stores the mattes where the analysis of the region looks for them once it has a texture. The
-/// newest call wins. carry(), pause(), resume() and clear() are for one thread and never wait.
-class MatteCarrier {
+/// newest call wins. propagate(), pause(), resume() and clear() are for one thread and never wait.
+class MattePropagator {
   public:
     /// `files`: as OpenShotOptions has it.
-    explicit MatteCarrier(AnalysisCacheOptions cache, std::shared_ptr<Fingerprints> files = nullptr)
+    explicit MattePropagator(AnalysisCacheOptions cache,
+                             std::shared_ptr<Fingerprints> files = nullptr)
         : cache_(std::move(cache)), files_(std::move(files)) {}
 
     /// Carries the painted mattes of the enabled regions; `project` as in PreviewRequest, except
     /// that textures are not needed. Mattes between the keyframes around `frame` come first.
     /// Repeating a call does nothing. Failures are not reported: the analysis will meet them too.
-    void carry(const Project& project, const PaintedMattes& painted, int frame);
+    void propagate(const Project& project, const PaintedMattes& painted, int frame);
     void pause();
     void resume();
     void clear();
@@ -37,11 +38,11 @@ class MatteCarrier {
     [[nodiscard]] Expected<Matte> matte(const WantedMatte& wanted) const;
     /// As Preview has it. Thread-safe, slow.
     [[nodiscard]] std::vector<int> reached(const WantedMatte& wanted) const;
-    /// Increases when mattes may have been carried. Thread-safe.
+    /// Increases when mattes may have been propagated. Thread-safe.
     [[nodiscard]] std::uint64_t changes() const { return changes_.load(); }
 
   private:
-    struct Carried {
+    struct Propagated {
         std::shared_ptr<const Shot> shot;
         std::shared_ptr<AnalysisCache> store;
         std::uint64_t document = 0;
@@ -59,11 +60,11 @@ class MatteCarrier {
 
     const AnalysisCacheOptions cache_;
     const std::shared_ptr<Fingerprints> files_;
-    std::shared_ptr<const Asked> asked_;  // null: nothing to carry
+    std::shared_ptr<const Asked> asked_;  // null: nothing to propagate
     bool paused_ = false;
     std::atomic<std::uint64_t> changes_{0};
     std::atomic<std::uint64_t> document_{0};  // how many there were: mattes of others are not shown
-    Published<Carried> carried_;
+    Published<Propagated> propagated_;
     LatestWorker<std::string, bool> worker_;  // destroyed first
 };
 
