@@ -15,8 +15,8 @@ namespace weft {
 namespace {
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 47;
-constexpr int kFormVersion = 8;   // of the form alone
+constexpr int kAnalysisVersion = 48;
+constexpr int kFormVersion = 9;   // of the form alone
 constexpr int kFocusVersion = 2;  // of the focus alone
 
 // What keys know files by.

@@ -1,12 +1,14 @@
 #include "app/measure/measure_job.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "app/measure/form_measure.h"
 #include "app/measure/truth_measure.h"
 #include "app/render/form_job.h"
 #include "app/shot/frame_plan.h"
 #include "engine/composite/focus.h"
+#include "engine/core/alpha.h"
 #include "engine/core/frame_range.h"
 #include "engine/core/setting.h"
 #include "engine/media/frame_writer.h"
@@ -159,7 +161,7 @@ class Measurer {
             WEFT_CHECK_OK(meter->add(frame));
             if (options_.pictures.empty()) continue;
             WEFT_TRY(result, readers_.front().read(frame));
-            WEFT_TRY(pictures, meter->pictures(frame, result));
+            WEFT_TRY(pictures, meter->pictures(frame, result.display));
             WEFT_CHECK_OK(write_light_pictures(options_.pictures, frame, pictures, rule));
         }
         if (meter->has_truth()) out_.light = meter->summary();
@@ -178,8 +180,6 @@ class Measurer {
 
     Status add(std::vector<SequenceMeasure>& measures, std::size_t at) {
         const int frame = frames_[at];
-        WEFT_TRY(plate, shot_->source->plate(frame));
-        const ImageF3 source = transformed(*plate, *shot_->plan.display_from_plate);
         WEFT_TRY(matte, visible_matte(*shot_, frame));
         std::optional<FlowField> motion;
         if (region().true_motion && at > 0) {
@@ -188,13 +188,15 @@ class Measurer {
         }
         for (std::size_t k = 0; k < measures.size(); ++k) {
             WEFT_TRY(result, readers_[k].read(frame));
-            WEFT_TRY(measured,
-                     measures[k].add({frame, result, source, matte, motion ? &*motion : nullptr,
-                                      region().motion_forward ? MotionDirection::kForward
-                                                              : MotionDirection::kBackward,
-                                      nullptr, k > 0 ? &measures.front() : nullptr}));
+            WEFT_TRY(source, plate_like(*shot_, frame, result.has_alpha));
+            WEFT_TRY(
+                measured,
+                measures[k].add({frame, result.display, source, matte, motion ? &*motion : nullptr,
+                                 region().motion_forward ? MotionDirection::kForward
+                                                         : MotionDirection::kBackward,
+                                 nullptr, k > 0 ? &measures.front() : nullptr}));
             out_.results[k].frames.push_back(measured);
-            WEFT_CHECK_OK(measure_focus(result, matte, out_.results[k].focus_px));
+            WEFT_CHECK_OK(measure_focus(result.display, matte, out_.results[k].focus_px));
             WEFT_CHECK_OK(measure_focus(source, matte, out_.results[k].source_focus_px));
             if (options_.measured) options_.measured(k, measured);
         }
@@ -210,6 +212,23 @@ class Measurer {
     MeasureJobResult out_;
 };
 
+// Straight colours. The colour under a straight alpha of 0, which shows nowhere, becomes black.
+void straighten(ImageF3& rgb, ViewF1 alpha, AlphaKind kind) {
+    if (kind == AlphaKind::kAssociated) {
+        unassociate(rgb, alpha);
+        return;
+    }
+    for (int y = 0; y < rgb.height(); ++y) {
+        for (int x = 0; x < rgb.width(); ++x)
+            if (!(alpha.row(y)[x] > 0)) std::fill_n(rgb.pixel(x, y), 3, 0.0f);
+    }
+}
+
+// A surface of half alpha is measured as a whole one is; under an alpha of 0 nothing shows.
+std::uint8_t shown_part(std::uint8_t matte, float alpha) {
+    return alpha > 0 ? matte : std::uint8_t{0};
+}
+
 }  // namespace
 
 Expected<ResultReader> ResultReader::open(const std::string& pattern, const Project& project) {
@@ -223,10 +242,24 @@ Expected<ResultReader> ResultReader::open(const std::string& pattern, const Proj
     return out;
 }
 
-Expected<ImageF3> ResultReader::read(int frame) const {
+Expected<MeasuredPicture> ResultReader::read(int frame) const {
     WEFT_TRY(picture, files_->read(frame));
+    const bool has_alpha = has_coverage(picture.alpha);
+    if (has_alpha) straighten(picture.rgb, picture.alpha, picture.alpha_kind);
     display_from_result_->apply(picture.rgb);
-    return std::move(picture.rgb);
+    return MeasuredPicture{std::move(picture.rgb), has_alpha};
+}
+
+Expected<ImageF3> plate_like(const Shot& shot, int frame, bool has_alpha) {
+    WEFT_TRY(plate, shot.source->plate(frame));
+    WEFT_TRY(alpha, shot.source->alpha(frame));
+    ImageF3 out = *plate;
+    if (alpha.coverage && has_alpha)
+        straighten(out, *alpha.coverage, alpha.kind);
+    else if (alpha.coverage && !alpha.associated())
+        associate(out, *alpha.coverage);
+    shot.plan.display_from_plate->apply(out);
+    return out;
 }
 
 Expected<ImageU8x3> ideal_plane(const Project& project, const RegionPlan& plan, Size plate) {
@@ -259,7 +292,14 @@ Expected<ImageU8x3> ideal_plane(const Project& project, const RegionPlan& plan, 
 Expected<Matte> visible_matte(const Shot& shot, int frame) {
     WEFT_TRY(extent, shot.source->matte(0, frame));
     WEFT_TRY(holdout, shot.source->holdout(0, frame));
-    return holdout ? without_holdout(extent, *holdout) : std::move(extent);
+    Matte visible = holdout ? without_holdout(extent, *holdout) : std::move(extent);
+    WEFT_TRY(alpha, shot.source->alpha(frame));
+    if (!alpha.coverage || visible.empty()) return visible;
+    for (int y = 0; y < visible.height(); ++y) {
+        std::transform(visible.row(y), visible.row(y) + visible.width(), alpha.coverage->row(y),
+                       visible.row(y), shown_part);
+    }
+    return visible;
 }
 
 Expected<FlowField> true_motion_between(const Shot& shot, int earlier, int later) {

@@ -81,20 +81,31 @@ struct MeasureJobResult {
 [[nodiscard]] Expected<ImageU8x3> ideal_plane(const Project& project, const RegionPlan& plan,
                                               Size plate);
 
-/// The matte of the region without its holdouts on a frame. Errors: those of reading.
+/// The matte of the region without its holdouts on a frame, and without what the plate's alpha says
+/// is empty. Errors: those of reading.
 [[nodiscard]] Expected<Matte> visible_matte(const Shot& shot, int frame);
+
+/// A picture as it is measured.
+struct MeasuredPicture {
+    ImageF3 display;         ///< Display codes, white = 1; straight colours where it has an alpha.
+    bool has_alpha = false;  ///< Without one, what was transparent lies over black.
+};
+
+/// The plate's frame, to compare with a result with or without an alpha: in straight colours, or
+/// over black. Errors: those of reading.
+[[nodiscard]] Expected<ImageF3> plate_like(const Shot& shot, int frame, bool has_alpha);
 
 /// Reads the true motion between `earlier` and `later`; the region's motion_forward gives its
 /// direction.
 [[nodiscard]] Expected<FlowField> true_motion_between(const Shot& shot, int earlier, int later);
 
-/// Reads rendered frames and converts them to display codes, white = 1.
+/// Reads rendered frames and converts them to display codes. Thread-safe.
 class ResultReader {
   public:
     /// Errors: Unreadable; Usage for an unknown colour space.
     [[nodiscard]] static Expected<ResultReader> open(const std::string& pattern,
                                                      const Project& project);
-    [[nodiscard]] Expected<ImageF3> read(int frame) const;
+    [[nodiscard]] Expected<MeasuredPicture> read(int frame) const;
     [[nodiscard]] const FrameReader& files() const { return *files_; }
 
   private:

@@ -21,7 +21,7 @@ Expected<Read> read_frame(const Shot& shot, const ResultReader& result, const Re
     WEFT_TRY(mine, result.read(frame));
     WEFT_TRY(real, truth.read(frame));
     WEFT_TRY(matte, visible_matte(shot, frame));
-    return Read{std::move(mine), std::move(real), std::move(matte)};
+    return Read{std::move(mine.display), std::move(real.display), std::move(matte)};
 }
 
 }  // namespace

@@ -73,6 +73,22 @@ std::string cut_warning(const std::vector<int>& cuts) {
            by({{setting::kMatte}}) + ".";
 }
 
+std::string doubt_warning(const std::vector<int>& frames) {
+    return "On " + frames_text(frames) +
+           " too little of the keyframe's scene is found again, as after a dissolve or a cut "
+           "between scenes that look alike: the matte is followed there with confidence 0. Check "
+           "it, and add a keyframe where the surface is in the picture" +
+           by({{setting::kMatte}}) + ".";
+}
+
+// `lost`: the frames without matte and confidence; `doubted`: those with a matte and no confidence.
+void warn_of_scenes(const Shot& shot, const std::vector<int>& lost, const std::vector<int>& doubted,
+                    std::vector<std::string>& warnings) {
+    if (const std::vector<int> cuts = cuts_beside(shot, lost); !cuts.empty())
+        warnings.push_back(cut_warning(cuts));
+    if (!doubted.empty()) warnings.push_back(doubt_warning(doubted));
+}
+
 }  // namespace
 
 Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
@@ -108,7 +124,7 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
     WEFT_CHECK_OK(propagate_mattes(context, *store));
 
     std::vector<MatteResult> results;
-    std::vector<int> lost;
+    std::vector<int> lost, doubted;
     for (const int frame : plan.frames) {
         if (cancel.cancelled()) return cancelled(cancel);
         StoredMatte matte;
@@ -120,15 +136,14 @@ Expected<std::vector<MatteResult>> run_matte_job(const JobSpec& spec,
             WEFT_TRY(read, shot->source->matte(0, frame));
             matte.matte = std::move(read);
         }
-        if (matte.confidence == 0 && is_empty(matte.matte)) lost.push_back(frame);
+        if (matte.confidence == 0) (is_empty(matte.matte) ? lost : doubted).push_back(frame);
         const std::vector<int>& keys = plan.regions[0].matte_keys;
         results.push_back({frame, pattern.path_for(frame), matte.confidence,
                            std::binary_search(keys.begin(), keys.end(), frame)});
         const Matte edged = with_edge(std::move(matte.matte), plan.regions[0].matte_edge.at(frame));
         WEFT_CHECK_OK(write_matte(results.back().path, edged, rule));
     }
-    if (const std::vector<int> cuts = cuts_beside(*shot, lost); !cuts.empty())
-        warnings.push_back(cut_warning(cuts));
+    warn_of_scenes(*shot, lost, doubted, warnings);
     WEFT_CHECK_OK(check_unchanged(shot->inputs->changed()));
     const std::vector<std::string> remarks = store->remarks();
     warnings.insert(warnings.end(), remarks.begin(), remarks.end());

@@ -8,6 +8,7 @@
 #include "app/shot/form_files.h"
 #include "engine/core/setting.h"
 #include "engine/core/text.h"
+#include "engine/form/reciprocal_depth.h"
 #include "engine/media/cryptomatte.h"
 #include "engine/media/form_passes.h"
 #include "engine/media/image_files.h"
@@ -133,10 +134,11 @@ class Chooser {
         }
         const bool depth = finish.focus > 0 || form.source == FormSource::kDepth;
         if (!depth || !is_exr(finish.depth)) return {};
-        return settle("depth pass", finish.depth, finish.depth_layer, setting::kDepthLayer,
-                      [&](const std::string& path) {
-                          return locate_depth(path, finish.depth_layer, beside_);
-                      });
+        WEFT_CHECK_OK(settle("depth pass", finish.depth, finish.depth_layer, setting::kDepthLayer,
+                             [&](const std::string& path) {
+                                 return locate_depth(path, finish.depth_layer, beside_);
+                             }));
+        return warn_of_reciprocals(finish);
     }
 
     Status choose_light() {
@@ -176,6 +178,19 @@ class Chooser {
                                   ", which changes its channel " + changed +
                                   ": expect errors of some thousandths of the scene's size. Write "
                                   "passes with a lossless codec such as ZIP.");
+    }
+
+    Status warn_of_reciprocals(const FinishParams& finish) {
+        const auto path = first_file(finish.depth, frames_);
+        if (!path) return {};
+        WEFT_TRY(depth, read_depth(*path, finish.depth_layer, Size()));
+        if (!looks_reciprocal(depth)) return {};
+        choice.warnings.push_back(
+            "Region '" + region_.name + "': the depth pass " + *path +
+            " seems to hold reciprocal distances (1/z), as Nuke's ScanlineRender and depth buffers "
+            "do: its planes are straight as they stand. It is read as distances; convert it to "
+            "them, as by the expression 1/z.");
+        return {};
     }
 
     void warn_of_axes(const FormParams& form) {

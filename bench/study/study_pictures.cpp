@@ -120,7 +120,7 @@ class Illustrator {
 
     Expected<cv::Mat> result(const StudyRun& run, int frame) {
         WEFT_TRY(pixels, readers_.at(run.id).read(frame));
-        return display_codes(pixels);
+        return display_codes(pixels.display);
     }
 
     Status add_strip() {
@@ -179,7 +179,7 @@ class Illustrator {
             {"shading_difference", "Φ less the true shading, × 4"}};
         for (const int frame : study_.strip_frames) {
             WEFT_TRY(result, readers_.at(full->id).read(frame));
-            WEFT_TRY(pictures, meter->pictures(frame, result));
+            WEFT_TRY(pictures, meter->pictures(frame, result.display));
             for (const auto& [name, picture] : pictures) {
                 const std::string& title = titles.at(name);
                 auto row = std::find_if(study_.light_strip.begin(), study_.light_strip.end(),
@@ -237,7 +237,8 @@ class Illustrator {
         const Matte visible = visible_in_both(field, matte_here, matte_there);
         WEFT_TRY(mine, readers_.at(run.id).read(here));
         WEFT_TRY(other, readers_.at(run.id).read(there));
-        const ImageF1 luma = luma_8bit(mine), after = moved(luma_8bit(other), field);
+        const ImageF1 luma = luma_8bit(mine.display),
+                      after = moved(luma_8bit(other.display), field);
         ImageF1 error(luma.size());
         for (int y = 0; y < luma.height(); ++y) {
             for (int x = 0; x < luma.width(); ++x) {
@@ -248,7 +249,7 @@ class Illustrator {
         const Recti window = worst_window(error);
         WorstStep step{run.title, later, *worst->tde, {}};
         step.pictures.push_back(
-            encoded(cut(display_codes(mine), window), "frame " + std::to_string(here), 88));
+            encoded(cut(display_codes(mine.display), window), "frame " + std::to_string(here), 88));
         step.pictures.push_back(encoded(cut(grey(after, 1), window),
                                         "frame " + std::to_string(there) + ", moved onto it", 88));
         step.pictures.push_back(encoded(cut(grey(error, kGain), window), "difference × 4", 88));

@@ -79,10 +79,19 @@ Blocks::Blocks(ViewF3 normals, ViewU8x1 matte, const ViewCamera& camera, int sid
     find_slopes(camera);
 }
 
+// Renderers average normals over a pixel. Where a soft matte falls off it says so; the pixels at
+// the edge of a hard one, as an index pass gives it, show a mixture, too.
+bool at_hard_edge(ViewU8x1 matte, int x, int y) {
+    return (x > 0 && matte.row(y)[x - 1] == 0) ||
+           (x + 1 < matte.width() && matte.row(y)[x + 1] == 0) ||
+           (y > 0 && matte.row(y - 1)[x] == 0) ||
+           (y + 1 < matte.height() && matte.row(y + 1)[x] == 0);
+}
+
 void Blocks::sum_up(ViewF3 normals, ViewU8x1 matte) {
     for (int y = 0; y < size_.height * side_; ++y) {
         for (int x = 0; x < size_.width * side_; ++x) {
-            if (matte.row(y)[x] != 255) continue;
+            if (matte.row(y)[x] != 255 || at_hard_edge(matte, x, y)) continue;
             const float* n = normals.pixel(x, y);
             if (!std::isfinite(n[0] + n[1] + n[2])) continue;
             Block& block = at(x / side_, y / side_);

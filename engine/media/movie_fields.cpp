@@ -16,8 +16,6 @@ namespace {
 constexpr int kColumns = 480;  // that are looked at, at most
 // Frames that are looked at: all of the beginning, then some in a row, again and again.
 constexpr int kBeginning = 96, kEvery = 250, kInARow = 16;
-// Of the frames that tell. Without a flag more is needed.
-constexpr double kFlagged = 0.2, kUnflagged = 0.5;
 
 // The upper 8 bits of the first component, luma or red; empty where it cannot be read so.
 Matte luma_codes(const AVFrame& frame) {
@@ -64,7 +62,7 @@ void MovieFields::add(const AVFrame& frame) {
 }
 
 bool MovieFields::are_interlaced() const {
-    return meter_.fields(flagged_ ? kFlagged : kUnflagged) == Fields::kInterlaced;
+    return meter_.fields(flagged_) == Fields::kInterlaced;
 }
 
 }  // namespace weft

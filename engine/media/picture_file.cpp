@@ -60,16 +60,16 @@ std::string reader_of(const std::string& path, std::string_view head) {
     return extension == ".tga" ? "targa" : "";
 }
 
-// Pages and layers of one size: the first is as likely to be the background as the picture. A
-// preview is smaller.
+// Pages, layers and moments of one size: the first is as likely to be the background as the
+// picture. A preview is smaller.
 Status check_pages(const std::string& path, OIIO::ImageInput& input) {
     const OIIO::ImageSpec first = input.spec();
-    int pages = 1;
-    while (input.seek_subimage(pages, 0) && input.spec().width == first.width &&
-           input.spec().height == first.height)
-        ++pages;
+    const bool has_second = input.seek_subimage(1, 0);
+    const bool alike =
+        has_second && input.spec().width == first.width && input.spec().height == first.height;
     static_cast<void>(input.geterror());
-    if (pages > 1) {
+    if (alike && first.get_int_attribute("oiio:Movie") != 0) return tl::unexpected(animated(path));
+    if (alike) {
         return tl::unexpected(
             unreadable(path, "it holds several pictures of one size, as pages or layers",
                        "Flatten it, or save the one that is meant by itself."));
@@ -104,7 +104,10 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_picture(const std::string& path
     if (!input || !input->open(path, spec, config)) {
         return tl::unexpected(damaged(path, input ? input->geterror() : OIIO::geterror()));
     }
-    if (reader == "tiff" || reader == "gif") WEFT_CHECK_OK(check_pages(path, *input));
+    // OpenImageIO 2.4 cannot go back to the picture of a still WebP.
+    const bool moves = input->spec().get_int_attribute("oiio:Movie") != 0;
+    if (reader == "tiff" || reader == "gif" || (reader == "webp" && moves))
+        WEFT_CHECK_OK(check_pages(path, *input));
     return input;
 }
 

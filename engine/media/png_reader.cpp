@@ -43,17 +43,33 @@ void on_read(png_structp png, png_bytep to, png_size_t count) {
     source.at += count;
 }
 
-// Coding-independent code points (PNG third edition, 11.3.2.6), which libpng 1.6 does not know.
-constexpr png_byte kCodingChunk[] = "cICP";
+// Chunks of PNG's third edition that libpng 1.6 does not know: coding-independent code points
+// (11.3.2.6) and animation control (11.3.6.1).
+constexpr png_byte kNewChunks[] = "cICP\0acTL";
+constexpr const char *kCodingChunk = "cICP", *kAnimationChunk = "acTL";
 
-// The transfer's code point in H.273; empty without the chunk.
-std::optional<int> transfer_of(png_const_structp png, png_infop info) {
+// The chunk's bytes; empty without one of this name and size.
+std::span<const png_byte> new_chunk(png_const_structp png, png_infop info, const char* name,
+                                    std::size_t bytes) {
     png_unknown_chunkp chunks = nullptr;
     const int count = png_get_unknown_chunks(png, info, &chunks);
     for (int k = 0; k < count; ++k)
-        if (std::memcmp(chunks[k].name, kCodingChunk, 4) == 0 && chunks[k].size == 4)
-            return chunks[k].data[1];
-    return std::nullopt;
+        if (std::memcmp(chunks[k].name, name, 4) == 0 && chunks[k].size == bytes)
+            return {chunks[k].data, bytes};
+    return {};
+}
+
+// The transfer's code point in H.273; empty without the chunk.
+std::optional<int> transfer_of(png_const_structp png, png_infop info) {
+    const auto coding = new_chunk(png, info, kCodingChunk, 4);
+    if (coding.empty()) return std::nullopt;
+    return coding[1];
+}
+
+// Other readers see an animation's first picture alone.
+bool is_animated(png_const_structp png, png_infop info) {
+    const auto control = new_chunk(png, info, kAnimationChunk, 8);
+    return !control.empty() && png_get_uint_32(control.data()) > 1;
 }
 
 class PngHandle {
@@ -68,7 +84,7 @@ class PngHandle {
             throw std::bad_alloc();
         }
         png_set_read_fn(png_, &source_, on_read);
-        png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS, kCodingChunk, 1);
+        png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS, kNewChunks, 2);
     }
     ~PngHandle() { png_destroy_read_struct(&png_, &info_, nullptr); }
     PngHandle(const PngHandle&) = delete;
@@ -204,9 +220,15 @@ void read_into(Raster& raster, const PngHandle& handle, bool raw_codes) {
                              handle.size(), raster.channels, raster.info.orientation);
 }
 
+Status read_header(const PngHandle& handle, const std::string& path) {
+    png_read_info(handle.png(), handle.info());
+    if (is_animated(handle.png(), handle.info())) return tl::unexpected(animated(path));
+    return {};
+}
+
 Expected<Raster> read_open(const InputFile& file, const std::string& path, bool raw_codes) {
     const PngHandle handle(file);
-    png_read_info(handle.png(), handle.info());
+    WEFT_CHECK_OK(read_header(handle, path));
     WEFT_CHECK_OK(check_memory(path, handle.size(), 4));
     Raster raster;
     raster.info = handle.info_as_seen();
@@ -243,9 +265,9 @@ bool is_png(const std::string& path) {
 }
 
 Expected<RasterInfo> probe_png(const std::string& path) {
-    return with_file(path, [](const InputFile& file) -> Expected<RasterInfo> {
+    return with_file(path, [&](const InputFile& file) -> Expected<RasterInfo> {
         const PngHandle handle(file);
-        png_read_info(handle.png(), handle.info());
+        WEFT_CHECK_OK(read_header(handle, path));
         return handle.info_as_seen();
     });
 }

@@ -17,6 +17,7 @@
 #include "engine/media/plate_decode.h"
 #include "engine/media/png_reader.h"
 #include "engine/media/raster_errors.h"
+#include "engine/media/unmade_alpha.h"
 
 namespace weft {
 namespace {
@@ -300,6 +301,8 @@ Expected<Raster> read_oiio(const std::string& path, const RasterRequest& request
             WEFT_CHECK_OK(fill<float>(raster, *input, path, pick, OIIO::TypeFloat));
             break;
     }
+    const std::string_view format = input->format_name();
+    if (format == "bmp" || format == "targa") drop_unmade_alpha(raster);
     std::visit(
         [&](auto& samples) {
             samples = upright(std::move(samples), stored, raster.channels, info.orientation);

@@ -12,6 +12,12 @@ Error unreadable(const std::string& path, const std::string& reason, const std::
     return {ErrorCode::kUnreadable, path + " cannot be read: " + reason + ".", advice, {}};
 }
 
+Error animated(const std::string& path) {
+    return unreadable(path, "it is an animation, several pictures in one file",
+                      "Export its frames as numbered pictures or as a movie, or save the one that "
+                      "is meant by itself.");
+}
+
 Error damaged(const std::string& path, const std::string& reason) {
     std::string one_line = reason.empty() ? "the file ends early" : reason;
     std::replace(one_line.begin(), one_line.end(), '\n', ' ');

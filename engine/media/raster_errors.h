@@ -23,6 +23,7 @@ inline constexpr const char* kShorterNames =
     "Blender cuts channels' names at 64 characters, so that some are lost: give the view layer a "
     "name of at most 40 characters.";
 
+[[nodiscard]] Error animated(const std::string& path);
 [[nodiscard]] Error damaged(const std::string& path, const std::string& reason);
 
 /// Errors: NoSpace if a picture of this size takes more than decode_limit_bytes(), so that the

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <system_error>
 
 #include "engine/core/frame_range.h"
@@ -80,6 +81,39 @@ std::string padded(std::int64_t frame, int padding, bool sign_counts) {
     return frame < 0 ? "-" + digits : digits;
 }
 
+// The number between the prefix and the suffix, in any spelling.
+std::optional<std::int64_t> any_number_in(std::string_view path, const std::string& prefix,
+                                          const std::string& suffix) {
+    if (path.size() <= prefix.size() + suffix.size()) return std::nullopt;
+    if (!path.starts_with(prefix) || !path.ends_with(suffix)) return std::nullopt;
+    const std::string_view number =
+        path.substr(prefix.size(), path.size() - prefix.size() - suffix.size());
+    std::int64_t frame = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), frame);
+    if (end != number.data() + number.size()) return std::nullopt;
+    if (error == std::errc::result_out_of_range || frame < -kBeyond) return kBeyond;
+    if (error != std::errc()) return std::nullopt;
+    return frame;
+}
+
+// A file that belongs to the sequence by its number, but is padded otherwise: of a frame that is
+// missing between the others or directly beside them. What lies further off is another sequence.
+Status check_padding(const SequencePattern& pattern, const std::vector<int>& frames,
+                     const std::map<std::int64_t, std::string>& others) {
+    if (frames.empty()) return {};
+    for (const auto& [frame, path] : others) {
+        if (frame < frames.front() - 1 || frame > frames.back() + 1 ||
+            std::binary_search(frames.begin(), frames.end(), frame))
+            continue;
+        return fail(
+            ErrorCode::kUsage,
+            path + " is frame " + std::to_string(frame) + ", but for " + pattern.text() +
+                " that frame is " + pattern.path_for(static_cast<int>(frame)) + ".",
+            "Give all files the same padding, or name the pattern of those that are meant.");
+    }
+    return {};
+}
+
 }  // namespace
 
 Expected<SequencePattern> SequencePattern::parse(std::string_view text) {
@@ -130,18 +164,14 @@ std::string SequencePattern::path_for(int frame) const {
 
 std::optional<std::int64_t> SequencePattern::number_in(std::string_view path,
                                                        bool sign_counts) const {
-    if (!numbered_ || path.size() <= prefix_.size() + suffix_.size()) return std::nullopt;
-    if (!path.starts_with(prefix_) || !path.ends_with(suffix_)) return std::nullopt;
-    const std::string_view number =
-        path.substr(prefix_.size(), path.size() - prefix_.size() - suffix_.size());
-    std::int64_t frame = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), frame);
-    if (end != number.data() + number.size()) return std::nullopt;
-    if (error == std::errc::result_out_of_range || frame < -kBeyond) return kBeyond;
-    if (error != std::errc()) return std::nullopt;
+    if (!numbered_) return std::nullopt;
+    const auto frame = any_number_in(path, prefix_, suffix_);
+    if (!frame || *frame == kBeyond) return frame;
     // #### would not write 00012, nor -0: each number has one file name, and each file name one
     // number.
-    if (padded(frame, padding_, sign_counts) != number) return std::nullopt;
+    const std::string_view number =
+        path.substr(prefix_.size(), path.size() - prefix_.size() - suffix_.size());
+    if (padded(*frame, padding_, sign_counts) != number) return std::nullopt;
     return frame;
 }
 
@@ -167,6 +197,7 @@ Error SequencePattern::other_spelling(const std::string& path, std::int64_t fram
 
 Expected<std::vector<int>> SequencePattern::list_frames() const {
     std::vector<int> frames;
+    std::map<std::int64_t, std::string> otherwise_padded;
     if (!numbered_) return frames;
     const std::size_t slash = prefix_.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : prefix_.substr(0, slash + 1);
@@ -178,6 +209,8 @@ Expected<std::vector<int>> SequencePattern::list_frames() const {
         const auto number = number_in(path, printf_);
         if (const auto other = number_in(path, !printf_); !number && other)
             return tl::unexpected(other_spelling(path, *other));
+        if (const auto other = any_number_in(path, prefix_, suffix_); !number && other)
+            otherwise_padded.emplace(*other, path);
         if (!number) continue;
         if (!is_frame_number(*number)) {
             return fail(
@@ -194,6 +227,7 @@ Expected<std::vector<int>> SequencePattern::list_frames() const {
                     "Check the path and its permissions.");
     }
     std::sort(frames.begin(), frames.end());
+    WEFT_CHECK_OK(check_padding(*this, frames, otherwise_padded));
     return frames;
 }
 

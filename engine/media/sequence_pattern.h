@@ -30,8 +30,8 @@ class SequencePattern {
     /// for other paths and for numbers beyond kMaxFrameNumber.
     [[nodiscard]] std::optional<int> frame_of(std::string_view path) const;
     /// The frames whose files are in the folder now, ascending; none for a single file. Errors:
-    /// Unreadable folder, or a file in it numbered beyond kMaxFrameNumber; Usage for a negative
-    /// number in the other spelling, which would be left out without a word.
+    /// Unreadable folder, or a file in it numbered beyond kMaxFrameNumber; Usage for a frame among
+    /// or beside the others whose file is spelled otherwise and would be left out without a word.
     [[nodiscard]] Expected<std::vector<int>> list_frames() const;
 
   private:

@@ -135,6 +135,12 @@ bool is_cut(const SweepFrame& at) {
     return static_cast<double>(found) < kFound * valid.width() * valid.height();
 }
 
+std::shared_ptr<const SceneFrame> scene_of(const SweepFrame& at) {
+    static const FlowField kNone;
+    return std::make_shared<const SceneFrame>(
+        scene_frame(at.views->followed(), at.prev_from_cur ? at.prev_from_cur->get() : kNone));
+}
+
 // What passes in front of a job's matte; empty: nothing does.
 Expected<Matte> in_front_of(const PassContext& context, const AnalysisStore& store, const Job& job,
                             int frame) {
@@ -149,6 +155,7 @@ struct MatteStop {
     const ImageU8x3& walked;  // the same, or smaller
     const FrameMotion* prev_from_cur = nullptr;
     bool cut = false;  // a new scene begins with it
+    std::shared_ptr<const SceneFrame> scene = {};
 
     // `matte` of the plate's size as it is walked, which is kept in `smaller` if it is reduced.
     [[nodiscard]] const Matte& reduce(const Matte& matte, Matte& smaller) const {
@@ -161,6 +168,8 @@ struct MatteStop {
 void begin(Job& job, const MatteStop& at, const Matte& painted, const Matte& front) {
     Matte smaller;
     job.walker.emplace(at.walked, at.reduce(painted, smaller), job.options, front);
+    job.scene = SceneWatch();
+    static_cast<void>(job.scene.still_shows(at.scene));
     job.options.soft_edges |= job.walker->has_soft_edges();
 }
 
@@ -172,6 +181,14 @@ MatteEstimate not_there(Size size) {
 
 bool is_not_there(const MatteEstimate& estimate) {
     return estimate.confidence == 0 && matte_bounds(estimate.matte).empty();
+}
+
+// Where the scene has become another one without a clear cut the walk goes on, for what it finds
+// may be right, but nothing speaks for it.
+MatteEstimate advance(Job& job, const MatteStop& at, const Matte& front) {
+    MatteEstimate estimate = job.walker->advance(at.walked, at.prev_from_cur->get(), front);
+    if (!job.scene.still_shows(at.scene)) estimate.confidence = 0;
+    return estimate;
 }
 
 // Advances a job's walker to this frame, which is one of `within`, on the way that begins at
@@ -186,14 +203,16 @@ Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan wit
     }
     if (at.cut) job.walker.reset();
     if (!job.is_confirmed(at.frame)) {
-        return job.walker ? job.walker->advance(at.walked, at.prev_from_cur->get(), front)
-                          : not_there(at.walked.size());
+        return job.walker ? advance(job, at, front) : not_there(at.walked.size());
     }
     WEFT_TRY(part, context.source.confirmed_part(job.region, job.layer, at.frame));
     if (at.frame == start || !job.walker)
         begin(job, at, part.matte, front);
     else
-        (void)job.walker->advance(at.walked, at.prev_from_cur->get(), front);
+        (void)advance(job, at, front);
+    // What is confirmed belongs to this scene.
+    job.scene = SceneWatch();
+    static_cast<void>(job.scene.still_shows(at.scene));
     Matte matte, area;
     return job.walker->confirm({at.reduce(part.matte, matte), at.reduce(part.area, area)});
 }
@@ -249,6 +268,16 @@ Expected<MatteEstimate> found_forward(const AnalysisStore& store, const Job& job
                          stored.since_confidence, std::move(stored.followed)};
 }
 
+// Two walks that have both lost their scene may agree by chance.
+MatteEstimate merged(const MatteEstimate& forward, const MatteEstimate& backward, const Job& job,
+                     const MatteStop& at, const Matte& front) {
+    MatteEstimate out =
+        merge_estimates(forward, backward, {at.frame, job.key_before(), job.key_after()}, at.walked,
+                        job.options, front);
+    if (forward.confidence == 0 && backward.confidence == 0) out.confidence = 0;
+    return out;
+}
+
 Status visit_backward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
                       const MatteStop& at) {
     for (Job& job : jobs) {
@@ -265,9 +294,7 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
             if (is_not_there(estimate))
                 estimate = std::move(forward);
             else if (!is_not_there(forward))
-                estimate = merge_estimates(forward, estimate,
-                                           {at.frame, job.key_before(), job.key_after()}, at.walked,
-                                           job.options, walked_front);
+                estimate = merged(forward, estimate, job, at, walked_front);
         }
         WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
         WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte, std::move(found)));
@@ -298,9 +325,10 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
             const ImageU8x3 smaller = size == plate.size() ? ImageU8x3() : reduced(plate, size);
             const FrameMotion larger([&] { return resized(at.prev_from_cur->get(), size); });
             const bool as_followed = at.views->followed().size() == size;
-            return visit(context, store, jobs,
-                         {at.frame, plate, smaller.empty() ? plate : smaller,
-                          as_followed ? at.prev_from_cur.get() : &larger, is_cut(at)});
+            return visit(
+                context, store, jobs,
+                {at.frame, plate, smaller.empty() ? plate : smaller,
+                 as_followed ? at.prev_from_cur.get() : &larger, is_cut(at), scene_of(at)});
         });
     };
     const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);

@@ -7,6 +7,7 @@
 
 #include "engine/mask/matte_propagation.h"
 #include "engine/mask/matte_reach.h"
+#include "engine/motion/scene_watch.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_plan.h"
 
@@ -22,6 +23,7 @@ struct MatteStretch {
     FrameSpan own;  ///< The frames whose mattes it makes; a keyframe goes with the next.
     MatteOptions options;
     std::optional<MatteWalker> walker = {};  ///< Of the walk that goes on.
+    SceneWatch scene = {};                   ///< Of the same walk.
 
     static constexpr FrameSpan kNone{0, -1};
 

@@ -1,4 +1,5 @@
 // File contents: the plate outside the matte bit for bit, NaN, values above 1.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -67,6 +68,48 @@ INSTANTIATE_TEST_SUITE_P(Formats, OutsideTheMatte,
                                            Format{".tif", PixelDepth::kU16},
                                            Format{".exr", PixelDepth::kHalf},
                                            Format{".exr", PixelDepth::kFloat}));
+
+using IdentityMap = CliTest;
+
+// An identity map gives the mean of the texture over each pixel (decision 5): the integrals of the
+// cubic over whole texels.
+TEST_F(IdentityMap, GivesTheTextureAsSoftAsItsMeanOverAPixel) {
+    make_shot(1);
+    const Size size = Card::kPlate;
+    ImageF3 plane(size), map(size);
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            std::fill_n(plane.pixel(x, y), 3, (120 + 16 * ((x * 7 + y * 13 + x * y) % 3)) / 255.0f);
+            map.at(x, y, 0) = (static_cast<float>(x) + 0.5f) / static_cast<float>(size.width);
+            map.at(x, y, 1) = 1 - (static_cast<float>(y) + 0.5f) / static_cast<float>(size.height);
+        }
+    }
+    put_picture("plane.png", plane);
+    put_picture("uv.exr", map, PixelDepth::kFloat);
+    expect_success(
+        run_replace({"--plane", "plane.png", "--uv", "uv.exr", "--light", "none", "--grain", "0",
+                     "--defocus", "0", "--match-plate", "0", "--quality", "final"}));
+    constexpr float kMean[] = {-0.0130f, 0.0938f, 0.8385f, 0.0938f, -0.0130f};
+    const ImageF3 result = picture("out/0001.png").rgb;
+    const Matte matte = card_matte(0);
+    float from_mean = 0, from_texels = 0;
+    int count = 0;
+    for (int y = 2; y + 2 < size.height; ++y) {
+        for (int x = 2; x + 2 < size.width; ++x) {
+            if (matte.at(x, y) != 255) continue;
+            float mean = 0;
+            for (int v = -2; v <= 2; ++v)
+                for (int u = -2; u <= 2; ++u)
+                    mean += kMean[u + 2] * kMean[v + 2] * plane.at(x + u, y + v, 0);
+            from_mean += std::abs(result.at(x, y, 0) - mean) * 255;
+            from_texels += std::abs(result.at(x, y, 0) - plane.at(x, y, 0)) * 255;
+            ++count;
+        }
+    }
+    ASSERT_GT(count, 1000);
+    EXPECT_LT(from_mean / static_cast<float>(count), 1.6f);
+    EXPECT_GT(from_texels / static_cast<float>(count), 2.4f);
+}
 
 class NonFinite : public CliTest {
   protected:

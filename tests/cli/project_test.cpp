@@ -165,6 +165,13 @@ TEST_F(ProjectFile, ValidateFindsWhatIsMissing) {
     EXPECT_EQ(run({"validate", kProject}).exit == 0, false);
 }
 
+TEST_F(ProjectFile, ValidateFindsAMatteOfAnotherSize) {
+    make_project(2);
+    add_card();
+    put_matte("masks/0002.png", Matte(Size{80, 60}, 255));
+    expect_failure(run({"validate", kProject}), 3, {"0002.png", "80x60", "160x120"});
+}
+
 TEST_F(ProjectFile, RegionsAreLayersLaterOnesOnTop) {
     make_project(1);
     for (const char* colour : {"red", "blue"}) {

@@ -84,6 +84,33 @@ TEST(NormalMetric, BothSidesOfWhatStandsInFrontAreAsLarge) {
 }
 
 // A second frame's normals have another scale, which what both show decides.
+// An index pass is hard, and normals are averaged: at its edge they are those of the background,
+// too.
+TEST(NormalMetric, TheEdgeOfAHardMatteSaysNothing) {
+    Surface floor = seen(floor_below);
+    for (int y = 0; y < kSize.height; ++y)
+        for (int x = 80; x < kSize.width; ++x)
+            if (x / 16 % 2 != 0) floor.matte.at(x, y) = 0;
+    const auto laid = [&](const ImageF3& normals) {
+        MetricField field(kSize, kSpacing);
+        add_normals(field, normals, floor.matte, kCamera, still());
+        EXPECT_TRUE(field.finish());
+        return flat_from_reference(field).displacement;
+    };
+    const ImageF3 clean = normals_of(floor);
+    ImageF3 averaged = clean;
+    for (int y = 0; y < kSize.height; ++y) {
+        for (int x = 80; x < kSize.width; x += 16) {
+            for (const int at : {x, x + 15}) {
+                float* n = averaged.pixel(std::min(at, kSize.width - 1), y);
+                n[0] = 0.5f * (n[0] + 1), n[1] *= 0.5f, n[2] *= 0.5f;
+            }
+        }
+    }
+    EXPECT_EQ(distortion(floor, laid(averaged)).stretch_median,
+              distortion(floor, laid(clean)).stretch_median);
+}
+
 TEST(NormalMetric, FramesMeetInTheirSize) {
     constexpr int kShift = 120;
     const Surface first = seen(floor_below);

@@ -11,6 +11,10 @@ namespace {
 
 constexpr Size kDiscSize{120, 96};
 
+std::uint8_t ground_at(int x, int y) {
+    return static_cast<std::uint8_t>(90 + 30 * std::sin(0.21 * x) * std::cos(0.33 * y));
+}
+
 // A textured disc before a texture, at half frame `t`, that moves by `step` px from frame to frame.
 Matte disc_picture(int t, double step_x, double step_y) {
     Matte out(kDiscSize);
@@ -18,9 +22,8 @@ Matte disc_picture(int t, double step_x, double step_y) {
     for (int y = 0; y < kDiscSize.height; ++y) {
         for (int x = 0; x < kDiscSize.width; ++x) {
             const double u = x - x0, v = y - y0;
-            const double back = 90 + 30 * std::sin(0.21 * x) * std::cos(0.33 * y);
             const double front = 150 + 60 * std::sin(0.4 * u + 0.2 * v) * std::cos(0.5 * v);
-            out.at(x, y) = static_cast<std::uint8_t>(u * u + v * v < 900 ? front : back);
+            out.at(x, y) = u * u + v * v < 900 ? static_cast<std::uint8_t>(front) : ground_at(x, y);
         }
     }
     return out;
@@ -34,14 +37,34 @@ Matte woven(const Matte& upper, const Matte& lower) {
 }
 
 // `fields`: the half frames at which frame k's upper and lower lines were taken.
-Fields seen(const std::function<std::pair<int, int>(int)>& fields, double step_x, double step_y,
-            double least_share = 0.2) {
+using FieldTimes = std::function<std::pair<int, int>(int)>;
+using Painter = std::function<Matte(int)>;
+
+Fields seen(const FieldTimes& fields, const Painter& picture, bool flagged = true) {
     FieldMeter meter;
     for (int k = 0; k < 10; ++k) {
         const auto [upper, lower] = fields(k);
-        meter.add(woven(disc_picture(upper, step_x, step_y), disc_picture(lower, step_x, step_y)));
+        meter.add(woven(picture(upper), picture(lower)));
     }
-    return meter.fields(least_share);
+    return meter.fields(flagged);
+}
+
+Painter disc(double step_x, double step_y) {
+    return [=](int t) { return disc_picture(t, step_x, step_y); };
+}
+
+// A hard-edged bar on a still, textured ground. Its upper and lower edges lie on even lines on
+// whole frames.
+Painter bar(int step_x, int step_y) {
+    return [=](int t) {
+        Matte out(kDiscSize);
+        for (int y = 0; y < kDiscSize.height; ++y)
+            for (int x = 0; x < kDiscSize.width; ++x)
+                out.at(x, y) = ground_at(x, y);
+        for (int y = 20 + t * step_y / 2; y < 44 + t * step_y / 2; ++y)
+            std::fill_n(out.row(y) + 20 + t * step_x / 2, 50, std::uint8_t{235});
+        return out;
+    };
 }
 
 std::pair<int, int> one_moment(int k) {
@@ -56,9 +79,21 @@ std::pair<int, int> lower_first(int k) {
 
 TEST(FieldMeter, TellsOneMomentFromTwo) {
     for (const auto& [x, y] : {std::pair(2.0, 0.0), {1.0, 1.0}, {0.0, 2.0}, {7.0, 3.0}}) {
-        EXPECT_EQ(seen(one_moment, x, y), Fields::kProgressive) << x << ", " << y;
-        EXPECT_EQ(seen(upper_first, x, y, 0.5), Fields::kInterlaced) << x << ", " << y;
-        EXPECT_EQ(seen(lower_first, x, y, 0.5), Fields::kInterlaced) << x << ", " << y;
+        EXPECT_EQ(seen(one_moment, disc(x, y)), Fields::kProgressive) << x << ", " << y;
+        EXPECT_EQ(seen(upper_first, disc(x, y), false), Fields::kInterlaced) << x << ", " << y;
+        EXPECT_EQ(seen(lower_first, disc(x, y), false), Fields::kInterlaced) << x << ", " << y;
+    }
+}
+
+TEST(FieldMeter, HardEdgesThatMoveByTwoLinesAreNotTakenForFields) {
+    for (const auto& [x, y] : {std::pair(0, 2), {0, -2}}) {
+        EXPECT_NE(seen(one_moment, bar(x, y), false), Fields::kInterlaced) << x << ", " << y;
+        // The flag decides what the pictures leave open.
+        EXPECT_EQ(seen(one_moment, bar(x, y), true), Fields::kInterlaced) << x << ", " << y;
+    }
+    for (const auto& [x, y] : {std::pair(4, 0), {8, 4}, {2, 2}}) {
+        EXPECT_EQ(seen(upper_first, bar(x, y), false), Fields::kInterlaced) << x << ", " << y;
+        EXPECT_EQ(seen(lower_first, bar(x, y), false), Fields::kInterlaced) << x << ", " << y;
     }
 }
 
@@ -69,17 +104,17 @@ TEST(FieldMeter, FindsTheMixedFramesOfTelecine) {
         constexpr int kUpper[] = {0, 1, 1, 2, 3}, kLower[] = {0, 1, 2, 3, 3};
         return std::pair(2 * (film + kUpper[k % 5]), 2 * (film + kLower[k % 5]));
     };
-    EXPECT_EQ(seen(telecine, 3, 1), Fields::kInterlaced);
+    EXPECT_EQ(seen(telecine, disc(3, 1)), Fields::kInterlaced);
 }
 
 TEST(FieldMeter, KnowsNothingOfWhatStandsStill) {
-    EXPECT_EQ(seen(upper_first, 0, 0), Fields::kUnknown);
+    EXPECT_EQ(seen(upper_first, disc(0, 0)), Fields::kUnknown);
     FieldMeter meter;
     for (int k = 0; k < 4; ++k) {
         meter.skip();
         meter.add(disc_picture(8 * k, 2, 0));
     }
-    EXPECT_EQ(meter.fields(0.2), Fields::kUnknown);
+    EXPECT_EQ(meter.fields(true), Fields::kUnknown);
 }
 
 }  // namespace

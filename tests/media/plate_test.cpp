@@ -129,6 +129,98 @@ TEST_F(Plate, TiffWithPagesOfOneSizeIsRefused) {
     EXPECT_EQ(opened(in("preview.tif"))->size(), (Size{16, 8}));
 }
 
+// A chunk of a RIFF file, padded to an even length.
+std::vector<char> riff_chunk(const std::string& name, const std::vector<char>& data) {
+    std::vector<char> out(name.begin(), name.end());
+    for (int k = 0; k < 4; ++k)
+        out.push_back(static_cast<char>(data.size() >> (8 * k) & 255));
+    out.insert(out.end(), data.begin(), data.end());
+    if (data.size() % 2 != 0) out.push_back(0);
+    return out;
+}
+
+// The still WebP of 16×8 px `moments` times over.
+std::vector<char> animated_webp(const std::vector<char>& still, int moments) {
+    constexpr std::ptrdiff_t kHead = 12;  // "RIFF", length, "WEBP"
+    std::vector<char> frame{0, 0, 0, 0, 0, 0, 15, 0, 0, 7, 0, 0, 40, 0, 0, 0};
+    frame.insert(frame.end(), still.begin() + kHead, still.end());
+    std::vector<char> body{'W', 'E', 'B', 'P'};
+    const auto add = [&](const std::string& name, const std::vector<char>& data) {
+        const std::vector<char> chunk = riff_chunk(name, data);
+        body.insert(body.end(), chunk.begin(), chunk.end());
+    };
+    add("VP8X", {2, 0, 0, 0, 15, 0, 0, 7, 0, 0});
+    add("ANIM", {0, 0, 0, 0, 0, 0});
+    for (int k = 0; k < moments; ++k)
+        add("ANMF", frame);
+    return riff_chunk("RIFF", body);
+}
+
+// Readers give an animation's first picture.
+TEST_F(Plate, AnimatedPicturesAreRefused) {
+    const auto put_picture = [&](const std::string& path, int moments) {
+        auto output = OIIO::ImageOutput::create(path);
+        ASSERT_TRUE(output) << path;
+        const std::vector<unsigned char> pixels(16 * 8 * 3, 99);
+        const OIIO::ImageSpec spec(16, 8, 3, OIIO::TypeUInt8);
+        for (int k = 0; k < moments; ++k) {
+            ASSERT_TRUE(output->open(
+                path, spec,
+                k == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage));
+            ASSERT_TRUE(output->write_image(OIIO::TypeUInt8, pixels.data()));
+        }
+        ASSERT_TRUE(output->close());
+    };
+    put_picture(in("still.gif"), 1);
+    put_picture(in("moving.gif"), 2);
+    put_picture(in("still.webp"), 1);
+    const auto webp = animated_webp(bytes_of(in("still.webp")), 2);
+    put_bytes(in("moving.webp"), webp, webp.size());
+    for (const char* still : {"still.gif", "still.webp"}) {
+        const auto read = read_image(in(still));
+        ASSERT_TRUE(read) << read.error().text();
+        EXPECT_EQ(read->rgb.size(), (Size{16, 8})) << still;
+    }
+    for (const char* moving : {"moving.gif", "moving.webp"}) {
+        const auto texture = read_image(in(moving));
+        ASSERT_FALSE(texture) << moving;
+        EXPECT_EQ(texture.error().code, ErrorCode::kUnreadable);
+        EXPECT_THAT(texture.error().sentence(), HasSubstr("animation"));
+    }
+    const auto plate = open_plate(in("moving.webp"), {});
+    ASSERT_FALSE(plate);
+    EXPECT_THAT(plate.error().sentence(), HasSubstr("animation"));
+}
+
+// BMP's fourth byte is reserved; TGAs without an alpha often have 32 bits.
+TEST_F(Plate, AnAlphaOfNothingButZeroIsNoneInBmpAndTga) {
+    const auto put_pixels = [&](const std::string& name, const std::vector<unsigned char>& header,
+                                unsigned char alpha) {
+        std::vector<char> bytes(header.begin(), header.end());
+        for (int k = 0; k < 8; ++k)
+            for (const int code : {51, 102, 204, static_cast<int>(alpha)})
+                bytes.push_back(static_cast<char>(code));
+        put_bytes(in(name), bytes, bytes.size());
+    };
+    const std::vector<unsigned char> tga{0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 2, 0, 32, 0x28};
+    const std::vector<unsigned char> bmp{
+        'B', 'M', 86, 0, 0, 0, 0, 0,  0, 0, 54, 0, 0, 0, 40, 0, 0, 0, 4, 0, 0, 0, 2, 0, 0, 0, 1,
+        0,   32,  0,  0, 0, 0, 0, 32, 0, 0, 0,  0, 0, 0, 0,  0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    put_pixels("none.tga", tga, 0);
+    put_pixels("none.bmp", bmp, 0);
+    for (const char* name : {"none.tga", "none.bmp"}) {
+        const PlateFrame frame = opened(in(name))->read(opened(in(name))->frames()[0]).value();
+        EXPECT_TRUE(frame.alpha.empty()) << name;
+        EXPECT_NEAR(frame.rgb.at(3, 1, 0), 204 / 255.0f, 1e-3) << name;
+        EXPECT_NEAR(frame.rgb.at(0, 0, 2), 51 / 255.0f, 1e-3) << name;
+    }
+    put_pixels("half.tga", tga, 128);
+    const auto half = opened(in("half.tga"));
+    const PlateFrame frame = half->read(half->frames()[0]).value();
+    ASSERT_FALSE(frame.alpha.empty());
+    EXPECT_NEAR(frame.alpha.at(2, 1), 128 / 255.0f, 1e-3);
+}
+
 TEST_F(Plate, SinglePictureIsAPlateOfOneFrame) {
     put_frame(in("still_0012.png"), picture({8, 8}, 0));
     put_frame(in("logo@x.png"), picture({8, 8}, 0));

@@ -285,6 +285,24 @@ TEST_F(Png, UnusualFilesAreLeftToLibpngWhichReadsThem) {
     }
 }
 
+// Readers that do not know the chunk give an animation's first picture.
+TEST_F(Png, AnAnimationIsRefused) {
+    put_frame(in("a.png"), picture({9, 5}, 0));
+    const auto put_animation = [&](unsigned char pictures) {
+        auto chunks = chunks_in(bytes_of(in("a.png")));
+        chunks.insert(chunks.begin() + 1, {"acTL", {0, 0, 0, pictures, 0, 0, 0, 0}});
+        const auto bytes = file_of(chunks);
+        put_bytes(in("animated.png"), bytes, bytes.size());
+    };
+    put_animation(2);
+    const auto refused = read_image(in("animated.png"));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(refused.error().sentence(), ::testing::HasSubstr("animation"));
+    put_animation(1);
+    EXPECT_EQ(read_image(in("animated.png")).value().rgb, picture({9, 5}, 0));
+}
+
 TEST_F(Png, DamageIsWhatLibpngSaysItIs) {
     auto cut = sound(), bad_filter = sound(), too_few = sound(), no_end = sound(),
          small_window = sound(), wrong_sum = sound();

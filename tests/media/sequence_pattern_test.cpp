@@ -109,6 +109,20 @@ TEST_F(SequenceFolder, NegativeFramesAreReadAsTheyAreWritten) {
     EXPECT_THAT(printf_style.error().sentence(), HasSubstr("Write ####"));
 }
 
+// Nor are frames whose files are padded otherwise; another sequence further off is.
+TEST_F(SequenceFolder, FramesOfAnotherPaddingAreNotLeftOutWithoutAWord) {
+    for (const char* name : {"p.1.png", "p.2.png", "p.003.png", "p.1001.png"})
+        put_bytes(in(name), {'x'}, 1);
+    const auto mixed = pattern(in("p.#.png")).list_frames();
+    ASSERT_FALSE(mixed);
+    EXPECT_EQ(mixed.error().code, ErrorCode::kUsage);
+    EXPECT_THAT(mixed.error().sentence(), HasSubstr("p.003.png is frame 3"));
+    EXPECT_THAT(mixed.error().sentence(), HasSubstr("same padding"));
+    put_bytes(in("p.3.png"), {'x'}, 1);
+    EXPECT_THAT(pattern(in("p.#.png")).list_frames().value(), ElementsAre(1, 2, 3, 1001));
+    EXPECT_THAT(pattern(in("p.####.png")).list_frames().value(), ElementsAre(1001));
+}
+
 TEST_F(SequenceFolder, MissingFolderIsUnreadable) {
     const auto frames = pattern(in("none/p.####.png")).list_frames();
     ASSERT_FALSE(frames);

@@ -68,5 +68,42 @@ TEST(MatteCut, AFlashIsNone) {
         EXPECT_TRUE(shows(matte)) << frame;
 }
 
+// The same wall with other paint: neither composition nor histogram tells it from the first.
+MemoryShot wall_that_becomes(float (*share)(int frame)) {
+    MemoryShot shot = make_wall();
+    const WaveTexture other(57);
+    for (int frame = kFirst; frame <= kLast; ++frame) {
+        auto plate = std::make_shared<ImageF3>(*shot.plates[frame]);
+        const float b = share(frame);
+        for (int y = 0; y < kShotSize.height; ++y) {
+            for (int x = 0; x < kShotSize.width; ++x) {
+                const float there = other(centre_of(x, y));
+                for (int c = 0; c < 3; ++c)
+                    plate->at(x, y, c) = plate->at(x, y, c) * (1 - b) + b * there;
+            }
+        }
+        shot.plates[frame] = plate;
+    }
+    return shot;
+}
+
+TEST(MatteCut, BetweenScenesThatLookAlikeConfidenceEnds) {
+    const auto mattes = propagated(
+        wall_that_becomes([](int frame) { return frame < kCut ? 0.0f : 1.0f; }), {kFirst});
+    for (const auto& [frame, matte] : mattes)
+        EXPECT_EQ(matte.confidence > 0.3f, frame < kCut) << frame << ": " << matte.confidence;
+    EXPECT_EQ(mattes.at(kLast).confidence, 0);
+}
+
+TEST(MatteCut, InADissolveConfidenceEndsAndTheOtherKeyframesMatteTakesOver) {
+    const auto dissolve = [](int frame) {
+        return std::clamp(static_cast<float>(frame - 3) / 5.0f, 0.0f, 1.0f);
+    };
+    const auto mattes = propagated(wall_that_becomes(dissolve), {kFirst});
+    EXPECT_GT(mattes.at(3).confidence, 0.3f);
+    EXPECT_EQ(mattes.at(kLast).confidence, 0);
+    EXPECT_GT(propagated(wall_that_becomes(dissolve), {kFirst, kLast}).at(9).confidence, 0.3f);
+}
+
 }  // namespace
 }  // namespace weft

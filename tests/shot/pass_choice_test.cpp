@@ -100,6 +100,30 @@ TEST_F(PassChoosing, TheViewOfThePlateIsTaken) {
     EXPECT_THAT(choose().warnings, ElementsAre(HasSubstr("first view")));
 }
 
+// A slanted wall, of which 1/z is straight.
+TEST_F(PassChoosing, ADepthPassOfReciprocalsIsNamed) {
+    const auto put_wall = [&](const std::string& name, bool reciprocal) {
+        OIIO::ImageSpec spec(96, 64, 1, OIIO::TypeHalf);
+        spec.channelnames = {"Z"};
+        std::vector<float> data;
+        for (int i = 0; i < 96 * 64; ++i) {
+            const float inverse = 0.1f + 0.002f * static_cast<float>(i % 96);
+            data.push_back(reciprocal ? inverse : 1 / inverse);
+        }
+        auto output = OIIO::ImageOutput::create(in(name));
+        ASSERT_TRUE(output->open(in(name), spec));
+        ASSERT_TRUE(output->write_image(OIIO::TypeFloat, data.data()));
+        ASSERT_TRUE(output->close());
+    };
+    put_wall("z.0001.exr", false);
+    put_wall("inverse.0001.exr", true);
+    region_.finish.focus = 1;
+    region_.finish.depth = in("z.####.exr");
+    EXPECT_THAT(choose().warnings, IsEmpty());
+    region_.finish.depth = in("inverse.####.exr");
+    EXPECT_THAT(choose().warnings, ElementsAre(HasSubstr("reciprocal distances (1/z)")));
+}
+
 TEST_F(PassChoosing, APassThatOnlyTheOtherViewHasIsNamed) {
     put("0001.exr",
         {"left.R", "left.G", "left.B", "right.R", "right.G", "right.B", "right.Depth.Z"});
