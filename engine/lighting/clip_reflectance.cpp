@@ -9,7 +9,6 @@
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
-#include "engine/lighting/masked_statistics.h"
 #include "engine/lighting/median.h"
 #include "engine/lighting/pattern_period.h"
 
@@ -25,8 +24,6 @@ constexpr double kRemainsOfPattern = 2.0, kMoreThanPattern = 3.0;
 constexpr int kLevelRounds = 3, kLevelStep = 3;  // rounds, and pixels between samples
 // ln light below the brightest frame's: what a fade leaves of the pattern is mostly noise.
 constexpr float kFaded = 3.0f;
-// ln units: steps of the still light below are noise of its frames.
-constexpr float kStillNoise = 0.03f;
 
 // Quantiles, as a share of the values below.
 using Share = std::array<std::ptrdiff_t, 2>;
@@ -100,8 +97,6 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
     if (part.box.empty()) return;
     downscale_ = s.downscale;
     part.marks = surface_pattern(undecided_luma(s), s.weight, pattern_px()).marks;
-    part.lie = surface_lie(s, ref_from_cur);
-    part.sheen = s.sheen;
     part.luma = part.paint = part.weight = ImageF1(part.box.size());
     // A splat is a scatter: one thread, so that sums come in one order.
     for (int y = 0; y < s.box.height(); ++y) {
@@ -203,29 +198,6 @@ PrintedMarks ReflectanceGatherer::usual_marks() const {
     return {often(&PrintedMarks::dark), often(&PrintedMarks::light)};
 }
 
-// What looks like sheen on a quarter of the frames is sheen, unless the surface turns and it stays.
-float ReflectanceGatherer::sheen_of(const Recti& box, const ImageF1& paint,
-                                    const ImageF1& known) const {
-    std::vector<float> sheens;
-    std::vector<SurfaceLie> lies;
-    ColourChange change;
-    for (const Part& part : parts_) {
-        sheens.push_back(part.sheen);
-        lies.push_back(part.lie);
-        const int dx = part.box.x0 - box.x0, dy = part.box.y0 - box.y0;
-        ImageF1 usual(part.box.size()), both(part.box.size());
-        for (int v = 0; v < part.box.height(); ++v) {
-            for (int u = 0; u < part.box.width(); ++u) {
-                usual.row(v)[u] = paint.row(v + dy)[u + dx];
-                both.row(v)[u] = std::min(part.weight.row(v)[u], known.row(v + dy)[u + dx]);
-            }
-        }
-        change.add(usual, part.paint, both);
-    }
-    const float sheen = quantile_at(sheens, kUpperQuarter);
-    return sheen > 0 ? sheen * (1 - painted_on(most_turned(lies), change.share())) : 0.0f;
-}
-
 float ReflectanceGatherer::pattern_px() const {
     return std::max(1.0f, options_.pattern_px / static_cast<float>(downscale_));
 }
@@ -256,7 +228,6 @@ ClipReflectance ReflectanceGatherer::finish() {
                      [](float w) { return w > 0; })) {
         return {};
     }
-    still.sheen = out.sheen = sheen_of(out.box, still.paint, still.weight);
     auto [light, pattern] = log_shading(still, options_);
     out.value = difference_of(still.luma, light, out.confidence);
     const int period = pattern_period_px(out.value, out.confidence, kLongestPeriod);
@@ -271,14 +242,9 @@ ClipReflectance ReflectanceGatherer::finish() {
             light.data()[i] += share * (wide.data()[i] - light.data()[i]);
         out.value = difference_of(still.luma, light, out.confidence);
     }
-    out.light = difference_of(still.luma, out.value, out.confidence);
-    out.light = without_noise(out.light, out.confidence, kStillNoise);
     // What moves has been told from paint by that; the light that never does has not.
-    const ImageF1 decided = decided_light(still);
-    const ImageF1 undecided = difference_of(out.light, decided, out.confidence);
-    out.doubt =
-        light_doubt(undecided, difference_of(undecided_luma(still), undecided, out.confidence),
-                    weighted(out.confidence, pattern.ground), pattern_px());
+    out.doubt = light_doubt(light, difference_of(out.value, still.paint, out.confidence),
+                            weighted(out.confidence, pattern.ground), pattern_px());
     return out;
 }
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/core/image.h"
-#include "engine/lighting/clip_sheen.h"
 #include "engine/lighting/shading.h"
 #include "engine/lighting/surface_sample.h"
 
@@ -21,8 +20,6 @@ struct ClipReflectance {
     ImageF1 value;
     ImageF1 confidence;       ///< Confidence, 0 to 1: the share of the frames that show the place.
     ImageF1 doubt;            ///< light_doubt() of what never moves there.
-    ImageF1 light;            ///< ln of the light that never moves there, folds included.
-    float sheen = 0;          ///< SurfaceSample::sheen, as the clip tells it.
     PrintedMarks marks = {};  ///< That at least half of the frames show.
 };
 
@@ -45,16 +42,12 @@ class ReflectanceGatherer {
         ImageF1 weight;
         float level = 0;  // ln light that the whole frame has beyond others
         PrintedMarks marks;
-        SurfaceLie lie{};
-        float sheen = 0;
     };
     template <typename Value>
     [[nodiscard]] ImageF1 over_time(const Recti& box, std::array<std::ptrdiff_t, 2> share,
                                     ImageF1& known, const Value& value, int step = 1) const;
     void find_levels(const Recti& box);
     [[nodiscard]] PrintedMarks usual_marks() const;
-    [[nodiscard]] float sheen_of(const Recti& box, const ImageF1& paint,
-                                 const ImageF1& known) const;
     [[nodiscard]] float pattern_px() const;
 
     int downscale_ = 1;

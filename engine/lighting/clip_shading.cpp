@@ -5,6 +5,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
+#include "engine/lighting/bilateral_grid.h"
 #include "engine/lighting/clip_reflectance.h"
 #include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
@@ -20,7 +21,8 @@ constexpr float kNoneShown = 0.35f,
                 kAllShown = 0.7f;    // share of the reflectance's detail that shows
 constexpr float kMinEnergy = 1e-5f;  // ln² of detail; below this it is noise
 constexpr float kOutlier = 3.0f;     // deviations of the detail: larger residuals are light
-constexpr float kFineRange = 0.08f;  // ln units
+constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
+constexpr int kFineRollings = 2;
 constexpr float kShown = 0.5f;
 constexpr std::int64_t kDoubtfulOneIn = 100;  // one in this many places may be in doubt
 
@@ -59,15 +61,13 @@ bool look_up_canvas(const ClipReflectance& r, const ImageF1& plane, float u, flo
     return true;
 }
 
-// The reflectance and the light that never moves as this frame shows them, and where they are
-// known.
+// The reflectance as this frame shows it, and where it is known.
 struct Seen {
-    ImageF1 value, light, doubt, known;
+    ImageF1 value, doubt, known;
 };
 
 Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2& ref_from_cur) {
-    Seen seen;
-    seen.value = seen.light = seen.doubt = seen.known = ImageF1(s.box.size());
+    Seen seen{ImageF1(s.box.size()), ImageF1(s.box.size()), ImageF1(s.box.size())};
     parallel_rows(s.box.height(), 8, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < s.box.width(); ++x) {
@@ -75,12 +75,10 @@ Seen moved_here(const SurfaceSample& s, const ClipReflectance& r, const ImageF2&
                 const float* d = ref_from_cur.pixel(x, y);
                 const float u = static_cast<float>(x + s.box.x0) + d[0];
                 const float v = static_cast<float>(y + s.box.y0) + d[1];
-                float value = 0, light = 0, doubt = 0, confidence = 0;
+                float value = 0, doubt = 0, confidence = 0;
                 if (!look_up_canvas(r, r.value, u, v, value, confidence)) continue;
-                (void)look_up_canvas(r, r.light, u, v, light, confidence);
                 (void)look_up_canvas(r, r.doubt, u, v, doubt, confidence);
                 seen.value.row(y)[x] = value;
-                seen.light.row(y)[x] = light;
                 seen.doubt.row(y)[x] = doubt;
                 seen.known.row(y)[x] = s.weight.row(y)[x] * confidence;
             }
@@ -117,6 +115,16 @@ ImageF1 detail_shown(const SurfaceSample& s, const Seen& seen) {
                                       kNoneShown, kAllShown);
     }
     return share;
+}
+
+// Removes noise, and what small errors of the motion leave of the pattern. The light's own edges
+// stay.
+ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
+    const ImageF1 values = weighted(luma, weight);
+    ImageF1 guide = blurred(values, weight, kFineSigma).value;
+    for (int i = 0; i < kFineRollings; ++i)
+        guide = joint_bilateral(values, weight, guide, {kFineSpace, kFineRange});
+    return guide;
 }
 
 // True if almost no place needs the estimate from the frame alone, which costs more than everything
@@ -162,14 +170,10 @@ Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflect
     if (sample.box.empty() || reflectance.box.empty()) return shading_of(sample, options);
     const Seen seen = moved_here(sample, reflectance, ref_from_cur);
     const ImageF1 share = detail_shown(sample, seen);
-    // Only what moves has this frame's noise: folds that stay keep their edges.
-    ImageF1 moving = sample.luma;
-    for (std::size_t i = 0; i < moving.size_bytes() / sizeof(float); ++i)
-        moving.data()[i] -= seen.value.data()[i] + seen.light.data()[i];
-    ImageF1 light =
-        without_noise(moving, unmarked(sample, seen.known, reflectance.marks, options), kFineRange);
-    for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i)
-        light.data()[i] += seen.light.data()[i];
+    ImageF1 lit = sample.luma;
+    for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
+        lit.data()[i] -= seen.value.data()[i];
+    ImageF1 light = without_noise(lit, unmarked(sample, seen.known, reflectance.marks, options));
     ImageF1 doubt = seen.doubt;
     if (shows_all(sample.weight, share)) {
         const SurfaceSample known = known_part(sample, share);
@@ -180,9 +184,9 @@ Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflect
     const LogShading log = log_shading(sample, options);
     const ImageF1& alone = log.value;
     const ImageF1 alone_doubt = light_doubt(sample, log, options);
-    for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i)
+    for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
         light.data()[i] = alone.data()[i] + share.data()[i] * (light.data()[i] - alone.data()[i]);
-    for (std::size_t i = 0; i < light.size_bytes() / sizeof(float); ++i) {
+    for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i) {
         float& d = doubt.data()[i];
         d = alone_doubt.data()[i] + share.data()[i] * (d - alone_doubt.data()[i]);
     }

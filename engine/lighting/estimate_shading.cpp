@@ -154,7 +154,6 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
             sample, static_cast<int>(kChromaWindow * small_pattern(sample, options)) + 1,
             options.daylight ? *options.daylight : find_daylight(linear));
         sample.paint = std::move(cues.paint);
-        sample.sheen = cues.sheen;
         sample.daylight = std::move(cues.light);
         sample.evidence = cues.evidence;
     }
@@ -164,9 +163,8 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
 LogShading log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
     LogShading light =
         without_pattern(undecided_luma(sample), sample.weight, small_pattern(sample, options));
-    const ImageF1 decided = decided_light(sample);
-    for (std::size_t i = 0; i < decided.size_bytes() / sizeof(float); ++i)
-        light.value.data()[i] += decided.data()[i];
+    for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
+        light.value.data()[i] += sample.daylight.data()[i];
     return light;
 }
 

@@ -63,12 +63,13 @@ ImageF1 light_doubt(const ImageF1& light, const ImageF1& paint, const ImageF1& w
 
 ImageF1 light_doubt(const SurfaceSample& sample, const LogShading& log,
                     const ShadingOptions& options) {
-    ImageF1 light = log.value, paint = undecided_luma(sample);
-    const ImageF1 decided = decided_light(sample);
-    for (std::size_t i = 0; i < paint.size_bytes() / sizeof(float); ++i) {
-        light.data()[i] -= decided.data()[i];
-        paint.data()[i] -= light.data()[i];
-    }
+    ImageF1 light = log.value, paint = sample.luma;
+    for (std::size_t i = 0; i < paint.size_bytes() / sizeof(float); ++i)
+        paint.data()[i] -= log.value.data()[i];
+    for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
+        light.data()[i] -= sample.daylight.data()[i];
+    for (std::size_t i = 0; i < sample.paint.size_bytes() / sizeof(float); ++i)
+        paint.data()[i] -= sample.paint.data()[i];
     return light_doubt(light, paint, log.pattern.ground,
                        std::max(1.0f, options.pattern_px / static_cast<float>(sample.downscale)));
 }

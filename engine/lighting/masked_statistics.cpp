@@ -4,15 +4,12 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
-#include "engine/lighting/bilateral_grid.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/median.h"
 
 namespace weft {
 namespace {
 
-constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f;  // pixels
-constexpr int kFineRollings = 2;
 constexpr float kKnownWeight = 1e-3f;  // of a window: below this there is no estimate
 
 }  // namespace
@@ -33,14 +30,6 @@ MaskedBlur blurred(const ImageF1& weighted_plane, const ImageF1& weight, float s
     });
     fill_unknown(out.value, out.known);
     return out;
-}
-
-ImageF1 without_noise(const ImageF1& plane, const ImageF1& weight, float range) {
-    const ImageF1 values = weighted(plane, weight);
-    ImageF1 guide = blurred(values, weight, kFineSigma).value;
-    for (int i = 0; i < kFineRollings; ++i)
-        guide = joint_bilateral(values, weight, guide, {kFineSpace, range});
-    return guide;
 }
 
 float deviation_between(const ImageF1& a, const ImageF1& b, const ImageF1& weight) {

@@ -14,10 +14,6 @@ struct MaskedBlur {
 /// `weighted_plane`: a plane × `weight`, 0 to 1; both H×W.
 [[nodiscard]] MaskedBlur blurred(const ImageF1& weighted_plane, const ImageF1& weight, float sigma);
 
-/// `plane` without noise, and without what small errors of the motion leave of a pattern: steps of
-/// more than `range` (in its units) keep their edges. Rolling guidance over some 3 pixels. All H×W.
-[[nodiscard]] ImageF1 without_noise(const ImageF1& plane, const ImageF1& weight, float range);
-
 /// Median absolute difference of two planes where `weight` is above 0, scaled to a standard
 /// deviation. A median is not raised by the edges of shadows, which cover few pixels. All H×W.
 [[nodiscard]] float deviation_between(const ImageF1& a, const ImageF1& b, const ImageF1& weight);

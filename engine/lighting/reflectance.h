@@ -8,9 +8,8 @@ namespace weft {
 
 /// What the colours of a surface say of its lightness; both of the size of the sample's box.
 struct ColourCues {
-    ImageF1 paint;    ///< The part of luma that follows the surface's chromaticity; its mean is 0.
-    float sheen = 0;  ///< 0 to 1: how far that looks like folds whose colour shifts with direction.
-    ImageF1 light;    ///< The part that is light, by its colour (SkyShade::light()); or empty.
+    ImageF1 paint;  ///< The part of luma that follows the surface's chromaticity; its mean is 0.
+    ImageF1 light;  ///< The part that is light, by its colour (SkyShade::light()); or empty.
     DaylightEvidence evidence = {};  ///< SkyShade::evidence().
 };
 

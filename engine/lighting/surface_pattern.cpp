@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/core/smooth_step.h"
-#include "engine/lighting/fold_statistics.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/masked_statistics.h"
 #include "engine/lighting/quantile.h"
@@ -20,15 +19,12 @@ namespace {
 constexpr float kPlain = 0.08f, kPatterned = 0.16f;
 
 constexpr int kGroundRounds = 3;
-constexpr float kLeastStep = 0.3f;    // ln units: fainter marks are no marks
-constexpr float kDeviations = 3.0f;   // of the ground: what is beyond is not of it
-constexpr float kDepthShare = 0.8f;   // the depth of marks is this quantile
-constexpr float kLeastDepth = 2.0f;   // times the step that tells them from the ground
-constexpr float kShallow = 0.5f;      // of their depth: no more than …
-constexpr float kMostShallow = 0.5f;  // … this share is so shallow
-// Creases may have one depth, too, but are shallower than ink, or have all values between theirs
-// and the ground's: (skewness² + 1) / kurtosis, Sarle's coefficient, of what is beyond the ground.
-constexpr float kInk = 1.0f, kTwoValues = 0.8f;
+constexpr float kLeastStep = 0.3f;     // ln units: fainter marks are no marks
+constexpr float kDeviations = 3.0f;    // of the ground: what is beyond is not of it
+constexpr float kDepthShare = 0.8f;    // the depth of marks is this quantile
+constexpr float kLeastDepth = 2.0f;    // times the step that tells them from the ground
+constexpr float kShallow = 0.5f;       // of their depth: no more than …
+constexpr float kMostShallow = 0.5f;   // … this share is so shallow
 constexpr float kFewest = 0.01f;       // of the surface
 constexpr float kCellSigmas = 8.0f;    // the side of a part of the surface, in blurs
 constexpr int kLeastCell = 8;          // pixels
@@ -38,10 +34,6 @@ constexpr float kMarkedParts = 0.5f;   // of the parts that have marks
 constexpr float kMarkedPart = 0.01f;   // of such a part's pixels
 
 constexpr float kOneGround = 0.5f;  // of the step: the ground's deviation around a mark, at most
-
-constexpr float kFoldSmooth = 1.0f;  // pixels: more would take fine patterns away
-constexpr float kFoldWindow = 2.0f;  // times pattern_px
-constexpr int kFoldSurround = 2;     // times that: what is wider is no fold
 
 struct Outliers {
     ImageF1 rest;    // luma over its ground
@@ -63,23 +55,6 @@ Outliers outliers_of(const ImageF1& luma, const ImageF1& weight, float sigma_px)
     return out;
 }
 
-// Sarle's coefficient of what is farther than the ground on one side.
-float modes_of(const Outliers& found, const ImageF1& weight, float side) {
-    double n = 0, sum = 0, second = 0, third = 0, fourth = 0;
-    const auto for_each = [&](const auto& visit) {
-        for (std::size_t i = 0; i < weight.size_bytes() / sizeof(float); ++i)
-            if (weight.data()[i] > kInsideWeight)
-                visit(std::max(0.0f, side * found.rest.data()[i]));
-    };
-    for_each([&](double v) { n += 1, sum += v; });
-    for_each([&](double v) {
-        const double d = v - sum / n;
-        second += d * d, third += d * d * d, fourth += d * d * d * d;
-    });
-    if (!(second > 0)) return 0;
-    return static_cast<float>((third * third / second + second * second / n) / fourth);
-}
-
 // Whether the outliers on one side, +1 or −1, have one depth.
 bool have_one_depth(const Outliers& found, const ImageF1& weight, float side) {
     std::vector<float> depths;
@@ -94,8 +69,7 @@ bool have_one_depth(const Outliers& found, const ImageF1& weight, float side) {
     const float depth = quantile(depths, kDepthShare);
     const auto shallow =
         std::count_if(depths.begin(), depths.end(), [&](float d) { return d < kShallow * depth; });
-    return depth > kLeastDepth * found.step && static_cast<float>(shallow) < kMostShallow * count &&
-           (depth > kInk || modes_of(found, weight, side) > kTwoValues);
+    return depth > kLeastDepth * found.step && static_cast<float>(shallow) < kMostShallow * count;
 }
 
 // Whether they are all over the surface.
@@ -150,16 +124,6 @@ bool lie_on_one_ground(const ImageF1& luma, const ImageF1& weight, const ImageF1
     return !deviations.empty() && quantile(deviations, 0.5f) < kOneGround * step;
 }
 
-// How far it varies as folds do, whatever their depth. Light that falls off over the surface has
-// no part in that.
-float folds_of(const ImageF1& luma, const ImageF1& ground, float pattern_px) {
-    const int window_px = static_cast<int>(kFoldWindow * pattern_px) + 1;
-    ImageF1 mean = ground;
-    box_blur(mean, kFoldSurround * window_px);
-    return fold_share(high_pass(luma, ground, mean, kFoldSurround * window_px), ground, window_px,
-                      kFoldSmooth);
-}
-
 }  // namespace
 
 SurfacePattern surface_pattern(const ImageF1& luma, const ImageF1& weight, float pattern_px) {
@@ -180,7 +144,6 @@ SurfacePattern surface_pattern(const ImageF1& luma, const ImageF1& weight, float
     }
     const ImageF1 base = blurred(weighted(luma, out.ground), out.ground, sigma_px).value;
     out.presence = smooth_step(deviation_between(base, luma, out.ground), kPlain, kPatterned);
-    if (out.presence > 0) out.presence *= 1 - folds_of(luma, out.ground, pattern_px);
     return out;
 }
 

@@ -159,12 +159,4 @@ ImageF1 undecided_luma(const SurfaceSample& sample) {
     return out;
 }
 
-ImageF1 decided_light(const SurfaceSample& sample) {
-    ImageF1 out = sample.daylight.empty() ? ImageF1(sample.luma.size()) : sample.daylight;
-    if (!(sample.sheen > 0)) return out;
-    for (std::size_t i = 0; i < sample.paint.size_bytes() / sizeof(float); ++i)
-        out.data()[i] += sample.sheen * sample.paint.data()[i];
-    return out;
-}
-
 }  // namespace weft

@@ -12,7 +12,6 @@ struct SurfaceSample {
     ImageF1 weight;      ///< Confidence, 0 to 1; 0 where the surface is not visible.
     ImageF1 luma;        ///< ln(Y + floor); 0 where weight is 0.
     ImageF1 paint;       ///< The part of luma that the surface's own colour explains; empty: none.
-    float sheen = 0;     ///< 0 to 1: how far that is light all the same, shifted by pile or silk.
     ImageF1 daylight;    ///< The part of luma that is light, by its colour; empty: none.
     ImageF1 red_green;   ///< ln((R + floor) / (G + floor)): near black it turns neutral.
     ImageF1 blue_green;  ///< ln((B + floor) / (G + floor)).
@@ -33,7 +32,5 @@ inline Size reduced_size(Size full, int downscale) {
 
 /// Its luma without the parts that colours tell.
 [[nodiscard]] ImageF1 undecided_luma(const SurfaceSample& sample);
-/// The part of its luma that colours tell to be light.
-[[nodiscard]] ImageF1 decided_light(const SurfaceSample& sample);
 
 }  // namespace weft

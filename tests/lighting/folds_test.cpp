@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/core/luma.h"
 #include "engine/lighting/clip_reflectance.h"
 #include "engine/lighting/shading.h"
 #include "engine/lighting/surface_pattern.h"
@@ -112,87 +111,6 @@ TEST(Folds, AreLightWhereTheirColourShifts) {
         return Colour{0.09f + 0.6f * lilac, 0.02f + 0.48f * lilac, 0.14f + 0.7f * lilac};
     }));
     EXPECT_GT(as_folds(s), 0.9);
-}
-
-// Soft, of no direction: a sum of waves in all directions.
-float cloud(float x, float y) {
-    return 0.5f * (std::sin(0.11f * x + 0.03f * y) + std::sin(0.1f * y - 0.04f * x) +
-                   std::sin(0.08f * (x + y) + 1) + std::sin(0.085f * (x - y) + 2));
-}
-
-// From brown to cream.
-Colour brown(float share) {
-    const float s = std::clamp(0.5f + 0.5f * share, 0.0f, 1.0f);
-    return {0.16f + 0.44f * s, 0.09f + 0.41f * s, 0.05f + 0.33f * s};
-}
-
-TEST(Folds, SoftCloudsOfOneHueAreNone) {
-    const auto at = [](int x, int y) {
-        return cloud(static_cast<float>(x), static_cast<float>(y));
-    };
-    const Shading s = light_on(cloth([&](int x, int y) { return brown(at(x, y)); }));
-    double least = 1e9, most = 0;
-    for (int y = (kCloth.y0 + kEdge) / 2; y < (kCloth.y1 - kEdge) / 2; ++y)
-        for (int x = (kCloth.x0 + kEdge) / 2; x < (kCloth.x1 - kEdge) / 2; ++x)
-            least = std::min<double>(least, s.value.at(x, y)),
-            most = std::max<double>(most, s.value.at(x, y));
-    EXPECT_LT(most / least, 1.5) << "of 3.6 that the paint has";
-}
-
-// The light of frame 0 of a clip in which a cloth that is painted in long soft strokes of one hue
-// turns about the line of sight by `step` (radians) a frame.
-Shading light_on_strokes(float step) {
-    const ShadingOptions options;
-    const Matte matte = scene::box_matte(kCloth);
-    ReflectanceGatherer gatherer(options);
-    std::optional<SurfaceSample> first;
-    std::optional<ImageF2> still;
-    for (int k = 0; k < 6; ++k) {
-        const float c = std::cos(step * static_cast<float>(k)),
-                    s = std::sin(step * static_cast<float>(k));
-        // Where a place of the frame was on the first one.
-        const auto before = [c, s](float x, float y) {
-            const float u = x - 160, v = y - 120;
-            return std::array<float, 2>{160 + c * u + s * v, 120 - s * u + c * v};
-        };
-        const ImageF3 plate = cloth([&](int x, int y) {
-            const auto p = before(static_cast<float>(x), static_cast<float>(y));
-            return brown(
-                fold(static_cast<int>(std::lround(p[0])), static_cast<int>(std::lround(p[1]))));
-        });
-        const SurfaceSample sample = light_sample(plate, matte, options);
-        ImageF2 ref_from_cur(sample.box.size());
-        for (int y = 0; y < ref_from_cur.height(); ++y) {
-            for (int x = 0; x < ref_from_cur.width(); ++x) {
-                const auto u = static_cast<float>(2 * (x + sample.box.x0)),
-                           v = static_cast<float>(2 * (y + sample.box.y0));
-                const auto p = before(u, v);
-                ref_from_cur.at(x, y, 0) = 0.5f * (p[0] - u);
-                ref_from_cur.at(x, y, 1) = 0.5f * (p[1] - v);
-            }
-        }
-        gatherer.add(sample, ref_from_cur);
-        if (!first) first = sample, still = ref_from_cur;
-    }
-    return shading_with(*first, gatherer.finish(), *still, options);
-}
-
-// How much of the strokes' contrast is in the light.
-double strokes_in(const Shading& s) {
-    double n = 0, a = 0, b = 0, bb = 0, ab = 0;
-    for (int y = 40; y < 80; ++y) {
-        for (int x = 50; x < 110; ++x) {
-            const double u = std::log(s.value.at(x, y));
-            const double v = std::log(luma_709(brown(fold(2 * x, 2 * y)).data()));
-            n += 1, a += u, b += v, bb += v * v, ab += u * v;
-        }
-    }
-    return (ab - a * b / n) / (bb - b * b / n);
-}
-
-TEST(Folds, AreNoneIfTheyStayThoughTheClothTurns) {
-    EXPECT_GT(strokes_in(light_on_strokes(0)), 0.8) << "in doubt they are folds";
-    EXPECT_LT(strokes_in(light_on_strokes(0.1f)), 0.25);
 }
 
 TEST(Folds, StripesOfTwoColoursAreNone) {
