@@ -90,7 +90,8 @@ bool MotionReturn::stays(const Matte& found, const FlowField& flow) {
 Matte MotionReturn::returned(const MotionReturnInput& in) {
     const double seen = area_of(in.phi);
     if (seen >= kLost * usual_px_ && taken_ == 0) {
-        if (seen >= kSeen * usual_px_) usual_px_ += (seen > usual_px_ ? kGrow : kShrink) * (seen - usual_px_);
+        if (seen >= kSeen * usual_px_)
+            usual_px_ += (seen > usual_px_ ? kGrow : kShrink) * (seen - usual_px_);
         candidate_ = {};
         frames_ = 0;
         return {};
