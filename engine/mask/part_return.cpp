@@ -19,7 +19,8 @@ constexpr double kMostOfSeen = 0.6;   // of what is seen lies in the piece
 constexpr double kLeastMotion = 0.5;  // log odds, mean of a piece
 constexpr int kFramesInRow = 3;
 // The higher the odds, the closer a piece lies to the surface: measured motion spreads over edges.
-constexpr float kMostOdds = 4, kOddsStep = 0.5f;
+constexpr int kOddsSteps = 8;
+constexpr float kOddsStep = 0.5f;
 
 // Whether the surface leaves the picture: what is beyond the border is not lost.
 bool leaves(ViewF1 phi) {
@@ -68,7 +69,8 @@ Matte of_piece(const PieceLabels& labels, std::int32_t piece, Size frame) {
 // The largest piece around what is seen that is not larger than the surface; empty: there is none.
 Matte piece_around(const MotionReturnInput& in, double seen_px, double usual_px) {
     const ImageF1 odds = motion_evidence(in);
-    for (float least = 0; least < kMostOdds; least += kOddsStep) {
+    for (int step = 0; step < kOddsSteps; ++step) {
+        const float least = static_cast<float>(step) * kOddsStep;
         const PieceLabels labels = motion_pieces(odds, least, in.unit_px);
         const std::vector<Piece> pieces = measure(in, labels);
         if (pieces.size() < 2) return {};

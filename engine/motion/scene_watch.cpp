@@ -52,7 +52,8 @@ bool lies_inside(Vec2 p, Size size) {
 }
 
 Vec2 motion_at(const FlowField& motion, Vec2 p) {
-    const float* d = motion.d.pixel(static_cast<int>(p.x + 0.5f), static_cast<int>(p.y + 0.5f));
+    const float* d =
+        motion.d.pixel(static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)));
     return {d[0], d[1]};
 }
 
@@ -73,8 +74,9 @@ std::optional<Shares> share_found(const Matte& now, const Matte& then, const Mat
                                  static_cast<std::size_t>(rows));
     for (int y = 0; y < now.height(); ++y) {
         for (int x = 0; x < now.width(); ++x) {
-            SceneCell& cell = cells[static_cast<std::size_t>(y * rows / now.height() * columns +
-                                                             x * columns / now.width())];
+            SceneCell& cell = cells[static_cast<std::size_t>(y * rows / now.height()) *
+                                        static_cast<std::size_t>(columns) +
+                                    static_cast<std::size_t>(x * columns / now.width())];
             cell.all += 1;
             cell.believed += believed.empty() || believed.row(y)[x] != 0;
             const Vec2 from = place(x, y);
