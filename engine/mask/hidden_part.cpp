@@ -1,5 +1,6 @@
 #include "engine/mask/hidden_part.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -90,6 +91,15 @@ Matte hidden_part(ViewU8x1 in_front) {
     if (!any) return {};
     grow(hidden, 1);
     return hidden;
+}
+
+Matte either_of(const Matte& a, const Matte& b) {
+    Matte both(b.size());
+    for (int y = 0; y < both.height(); ++y) {
+        for (int x = 0; x < both.width(); ++x)
+            both.at(x, y) = std::max(a.empty() ? std::uint8_t{0} : a.at(x, y), b.at(x, y));
+    }
+    return both;
 }
 
 ImageF1 seen_distance(const ImageF1& phi, const Matte& hidden) {

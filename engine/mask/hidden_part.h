@@ -10,6 +10,10 @@ namespace weft {
 /// 255 where `in_front` (a matte) covers a pixel or one beside it; empty if it does so nowhere.
 [[nodiscard]] Matte hidden_part(ViewU8x1 in_front);
 
+/// The larger code of each pixel, such as of two things that are not known to be of either side.
+/// `a` may be empty.
+[[nodiscard]] Matte either_of(const Matte& a, const Matte& b);
+
 /// A signed distance with 0, neither inside nor outside, where `hidden`; both have one size.
 [[nodiscard]] ImageF1 seen_distance(const ImageF1& phi, const Matte& hidden);
 /// Of another boundary: what was hidden in `seen` stays so. An empty `seen` stays empty; else both

@@ -54,16 +54,6 @@ Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
     return bounds.grown(margin).intersected(rect_of(frame));
 }
 
-// Pixels of either; `a` may be empty.
-Matte either(const Matte& a, const Matte& b) {
-    Matte both(b.size());
-    for (int y = 0; y < both.height(); ++y) {
-        for (int x = 0; x < both.width(); ++x)
-            both.at(x, y) = std::max(a.empty() ? std::uint8_t{0} : a.at(x, y), b.at(x, y));
-    }
-    return both;
-}
-
 }  // namespace
 
 struct MatteWalker::State {
@@ -173,7 +163,8 @@ LocalColorField MatteWalker::State::fit_colors(ViewU8x3 part, const TransportedS
                             nearest_pixel({k[0], k[1]}), w.center};
     }
     // Neither what is hidden nor what has just appeared is known to be of either side.
-    const ImageF1 expected = seen_distance(shape.phi, either(covered, shape.uncovered.appearing));
+    const ImageF1 expected =
+        seen_distance(shape.phi, either_of(covered, shape.uncovered.appearing));
     const std::vector<ColorSource> sources = {
         {frame, seen_phi(), clearance_px, 0.3f, 1.0f},
         {key_frame, key_seen.empty() ? key_phi : key_seen, clearance_px, 1.0f, 0.3f},

@@ -39,27 +39,6 @@ float from_log_code(std::uint16_t code) {
 
 }  // namespace
 
-bool MemoryAnalysisStore::has(const AnalysisKey& key) const {
-    const std::lock_guard lock(mutex_);
-    return blobs_.contains(key);
-}
-
-Status MemoryAnalysisStore::put(const AnalysisKey& key, const Bytes& bytes) {
-    const std::lock_guard lock(mutex_);
-    blobs_[key] = bytes;
-    return {};
-}
-
-Expected<Bytes> MemoryAnalysisStore::get(const AnalysisKey& key) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = blobs_.find(key);
-    if (found == blobs_.end()) {
-        return fail(ErrorCode::kRenderFailed,
-                    "Frame " + std::to_string(key.frame) + " has not been analysed.");
-    }
-    return found->second;
-}
-
 Bytes encode(const StoredMatte& m) {
     ByteWriter out;
     out.value(m.matte.size()).value(m.confidence).raw(m.matte.data(), m.matte.size_bytes());
