@@ -75,8 +75,9 @@ std::string cut_warning(const std::vector<int>& cuts) {
 
 std::string doubt_warning(const std::vector<int>& frames) {
     return "On " + frames_text(frames) +
-           " too little of the keyframe's scene is found again, as after a dissolve or a cut "
-           "between scenes that look alike: the matte is followed there with confidence 0. Check "
+           " too little of the keyframe's scene is found again, as after a dissolve, a cut "
+           "between scenes that look alike, or a move that changes all of the picture: the matte "
+           "is followed there with confidence 0. Check "
            "it, and add a keyframe where the surface is in the picture" +
            by({{setting::kMatte}}) + ".";
 }

@@ -17,8 +17,9 @@ void Followed::advance(const FollowedStep& step) {
     parallel_rows(moved.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < moved.width(); ++x) {
-                const bool inside = step.phi.row(y)[x] > 0 && step.area.contains(x, y);
-                if (!inside && parting.at(x, y) != 0) continue;
+                const bool inside = step.phi.row(y)[x] > 0;
+                // What was found again elsewhere has no motion of the surface's.
+                if (inside ? !step.area.contains(x, y) : parting.at(x, y) != 0) continue;
                 const float* d = inside
                                      ? step.surface_motion.pixel(x - step.area.x0, y - step.area.y0)
                                      : step.flow.d.pixel(x, y);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "engine/mask/signed_distance.h"
@@ -12,8 +13,9 @@ namespace {
 
 // Shares of the usual area: below the first too little is seen, above the second enough.
 constexpr double kLost = 0.1, kWhole = 0.6;
-// Of that area, from frame to frame: what is hidden for a while has not become smaller.
-constexpr double kGrow = 0.1, kShrink = 0.1;
+// Of that area, from frame to frame. Slower, and a surface that turns or goes away passes for half
+// hidden; so only a sudden loss counts.
+constexpr double kFollowArea = 0.1;
 constexpr double kLargest = 1.2;      // share of it that a piece may have
 constexpr double kMostOfSeen = 0.6;   // of what is seen lies in the piece
 constexpr double kLeastMotion = 0.5;  // log odds, mean of a piece
@@ -92,10 +94,10 @@ PartReturn::PartReturn(ViewF1 key_phi) : usual_px_(area_of(key_phi)) {}
 
 Matte PartReturn::returned(const MotionReturnInput& in) {
     const double seen = area_of(in.phi);
-    const bool in_part = seen > kLost * usual_px_ && seen < kWhole * usual_px_ && !leaves(in.phi);
+    const bool leaving = leaves(in.phi);
+    const bool in_part = seen > kLost * usual_px_ && seen < kWhole * usual_px_ && !leaving;
     const double usual = usual_px_;
-    const double follow = seen > usual_px_ ? kGrow : kShrink;
-    usual_px_ += (leaves(in.phi) ? 1 : follow) * (seen - usual_px_);
+    usual_px_ += (leaving ? 1 : kFollowArea) * (seen - usual_px_);
     Matte rest = in_part ? piece_around(in, seen, usual) : Matte();
     frames_ = rest.empty() ? 0 : frames_ + 1;
     return frames_ >= kFramesInRow ? std::move(rest) : Matte();

@@ -66,6 +66,18 @@ TEST(Followed, WhatBecomesSurfaceIsGuessedAlsoWhereItWasSeen) {
     EXPECT_EQ(followed.known().at(x, static_cast<int>(center.y)), Followed::kKnown);
 }
 
+TEST(Followed, WhatIsFoundAgainElsewhereIsGuessed) {
+    const DiscScene scene;
+    Followed followed(scene.size);
+    const FlowField flow = scene.prev_from_cur(1);
+    // The surface was expected in the left quarter, and is found beside it.
+    const Recti expected{0, 0, scene.size.width / 4, scene.size.height};
+    const ImageF2 surface = steady_motion(expected.size(), -scene.step);
+    followed.advance({flow, surface, expected, disc_distance(scene, 0), disc_distance(scene, 1)});
+    const Vec2 center = scene.center(1);
+    EXPECT_EQ(followed.known().at(static_cast<int>(center.x), static_cast<int>(center.y)), 0);
+}
+
 // Near the second keyframe, where by their places in time the walk back from it decides, since the
 // picture tells nothing.
 TEST(MergeEstimates, WhatIsKnownCountsForMoreThanWhatIsGuessed) {

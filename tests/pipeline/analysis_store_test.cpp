@@ -47,15 +47,16 @@ TEST(AnalysisCodecs, MattesComeBackExactly) {
     }
 }
 
-TEST(AnalysisCodecs, WhatAWalkHasConfirmedComesBackWithItsMatte) {
+TEST(AnalysisCodecs, WhatAWalkKnowsComesBackWithItsMatte) {
     const Size size{31, 17};
-    const StoredMatte matte{random_image<Matte>(size), 0.25f, random_image<FramesSince>(size),
-                            0.5f};
+    const StoredMatte matte{random_image<Matte>(size), 0.25f, random_image<FramesSince>(size), 0.5f,
+                            random_image<Matte>(size)};
     Bytes bytes = encode(matte);
     const auto back = decode_matte(bytes);
     ASSERT_TRUE(back);
     EXPECT_EQ(back->matte, matte.matte);
     EXPECT_EQ(back->since, matte.since);
+    EXPECT_EQ(back->followed, matte.followed);
     EXPECT_EQ(back->since_confidence, 0.5f);
     bytes.pop_back();
     EXPECT_FALSE(decode_matte(bytes)) << "cut off";
