@@ -23,8 +23,8 @@ int spread_steps(float unit_px) {
 
 ImageF1 motion_evidence(const MotionReturnInput& in) {
     constexpr int kStep = kMotionEvidenceStep;
-    ImageF1 odds(Size{(in.frame.width() + kStep - 1) / kStep,
-                      (in.frame.height() + kStep - 1) / kStep});
+    ImageF1 odds(
+        Size{(in.frame.width() + kStep - 1) / kStep, (in.frame.height() + kStep - 1) / kStep});
     parallel_rows(odds.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < odds.width(); ++x) {
