@@ -1,5 +1,6 @@
 // Internal to patch_search.cpp, which includes this once for each set of instructions: the compiler
-// splits wide vectors by the target under which a function is written, not by that of its caller.
+// splits wide vectors by the target under which a function is written, not by that of its caller,
+// and inlines nothing that is written for another one.
 // A row of a patch is eight lanes, as many registers as `kRegister` floats give; all sets add the
 // same lanes in the same order.
 
@@ -23,6 +24,18 @@ WEFT_INLINE float sum(const Row& row) {
     alignas(32) float v[kPatch];  // NOLINT(modernize-avoid-c-arrays)
     store(row, v);
     return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+// `sum_gg`: of gx², gx·gy and gy².
+WEFT_INLINE void invert(Patch& patch, Vec2 sum_g, glm::vec3 sum_gg) {
+    patch.sum_g = sum_g;
+    // The slopes of grain alone: a blank patch stays where it starts.
+    constexpr float kNoise = 0.04f * kPixels;
+    const float xx = sum_gg.x - sum_g.x * sum_g.x * kShare + kNoise;
+    const float xy = sum_gg.y - sum_g.x * sum_g.y * kShare;
+    const float yy = sum_gg.z - sum_g.y * sum_g.y * kShare + kNoise;
+    const float one_over = 1.0f / (xx * yy - xy * xy);
+    patch.inverse = {yy * one_over, -xy * one_over, xx * one_over};
 }
 
 WEFT_INLINE void take_patch(const SearchPicture& picture, int x, int y, Patch& patch) {
@@ -68,6 +81,26 @@ WEFT_INLINE void miss_of(const Row& above, const Row& below, float fy, const flo
     load(patch, value);
     for (std::size_t p = 0; p < Row::kParts; ++p)
         miss.part[p] = above.part[p] + fy * (below.part[p] - above.part[p]) - value.part[p];
+}
+
+WEFT_INLINE Fit fit_of(const Patch& patch, float sum_d, float sum_dd, Vec2 sum_dg) {
+    const float mean = sum_d * kShare;
+    const Vec2 b = sum_dg - patch.sum_g * mean;
+    return {sum_dd - mean * mean * kPixels,
+            {-(patch.inverse.x * b.x + patch.inverse.y * b.y),
+             -(patch.inverse.y * b.x + patch.inverse.z * b.y)}};
+}
+
+WEFT_INLINE Place place_at(const SearchPicture& target, Vec2 p) {
+    constexpr float kLeast = 1.0f - SearchPicture::kBorder;
+    constexpr float kBeyond = SearchPicture::kBorder - kPatch - 2;
+    const float x =
+        std::min(std::max(p.x, kLeast), static_cast<float>(target.size().width) + kBeyond);
+    const float y =
+        std::min(std::max(p.y, kLeast), static_cast<float>(target.size().height) + kBeyond);
+    constexpr int kBias = SearchPicture::kBorder;  // truncation of positive numbers rounds down
+    const int ix = static_cast<int>(x + kBias) - kBias, iy = static_cast<int>(y + kBias) - kBias;
+    return {target.at(ix, iy), x - static_cast<float>(ix), y - static_cast<float>(iy)};
 }
 
 WEFT_INLINE Fit fit_at(const Patch& patch, const SearchPicture& target, Vec2 p) {

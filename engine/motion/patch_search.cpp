@@ -29,32 +29,12 @@ struct Patch {
     glm::vec3 inverse{0};  // xx, xy, yy
 };
 
-// `sum_gg`: of gx², gx·gy and gy².
-void invert(Patch& patch, Vec2 sum_g, glm::vec3 sum_gg) {
-    patch.sum_g = sum_g;
-    // The slopes of grain alone: a blank patch stays where it starts.
-    constexpr float kNoise = 0.04f * kPixels;
-    const float xx = sum_gg.x - sum_g.x * sum_g.x * kShare + kNoise;
-    const float xy = sum_gg.y - sum_g.x * sum_g.y * kShare;
-    const float yy = sum_gg.z - sum_g.y * sum_g.y * kShare + kNoise;
-    const float one_over = 1.0f / (xx * yy - xy * xy);
-    patch.inverse = {yy * one_over, -xy * one_over, xx * one_over};
-}
-
 // How well a displacement fits: the squared difference less that of the means, which a change of
 // light explains; and the step that Gauss–Newton takes from there.
 struct Fit {
     float cost;
     Vec2 step;
 };
-
-Fit fit_of(const Patch& patch, float sum_d, float sum_dd, Vec2 sum_dg) {
-    const float mean = sum_d * kShare;
-    const Vec2 b = sum_dg - patch.sum_g * mean;
-    return {sum_dd - mean * mean * kPixels,
-            {-(patch.inverse.x * b.x + patch.inverse.y * b.y),
-             -(patch.inverse.y * b.x + patch.inverse.z * b.y)}};
-}
 
 // Whether another displacement is worth a try.
 bool apart(Vec2 a, Vec2 b) {
@@ -67,18 +47,6 @@ struct Place {
     const float* pixel;
     float fx, fy;
 };
-
-Place place_at(const SearchPicture& target, Vec2 p) {
-    constexpr float kLeast = 1.0f - SearchPicture::kBorder;
-    constexpr float kBeyond = SearchPicture::kBorder - kPatch - 2;
-    const float x =
-        std::min(std::max(p.x, kLeast), static_cast<float>(target.size().width) + kBeyond);
-    const float y =
-        std::min(std::max(p.y, kLeast), static_cast<float>(target.size().height) + kBeyond);
-    constexpr int kBias = SearchPicture::kBorder;  // truncation of positive numbers rounds down
-    const int ix = static_cast<int>(x + kBias) - kBias, iy = static_cast<int>(y + kBias) - kBias;
-    return {target.at(ix, iy), x - static_cast<float>(ix), y - static_cast<float>(iy)};
-}
 
 struct Found {
     Vec2 d;
