@@ -86,12 +86,16 @@ class Conveyor {
         frame.cut = seen.cut;
         frame.views = std::move(seen.views);
         if (options_.motion && before_.views && !context_.cancel.cancelled()) {
-            frame.prev_from_cur = std::make_shared<const FrameMotion>(
-                [&plan = context_.plan, number = frame.frame, views = frame.views,
-                 before_number = before_.frame, before_views = before_.views] {
-                    if (views == before_views) return FlowField(views->followed().size());
-                    return motion_between(plan, number, *views, before_number, *before_views);
-                });
+            FrameMotion::Estimate estimate = [&plan = context_.plan, number = frame.frame,
+                                              views = frame.views, before_number = before_.frame,
+                                              before_views = before_.views] {
+                if (views == before_views) return FlowField(views->followed().size());
+                return motion_between(plan, number, *views, before_number, *before_views);
+            };
+            frame.prev_from_cur =
+                context_.motions
+                    ? context_.motions->between(frame.seen, before_.seen, std::move(estimate))
+                    : std::make_shared<const FrameMotion>(std::move(estimate));
             const bool expected =
                 options_.known && options_.known->expects(frame.frame, before_.frame);
             if (!expected) static_cast<void>(frame.prev_from_cur->get());

@@ -48,6 +48,7 @@ struct PassContext {
     CancelToken cancel;
     std::function<void(int frame, double seconds)> step;  ///< Called after every frame.
     const Backend* backend = nullptr;                     ///< For growing textures, if any.
+    std::shared_ptr<RecentMotions> motions = {};          ///< Of sweeps side by side; may be null.
 };
 
 using SweepVisitor = std::function<Status(const SweepFrame&)>;
