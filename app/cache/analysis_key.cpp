@@ -15,7 +15,7 @@ namespace weft {
 namespace {
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 49;
+constexpr int kAnalysisVersion = 50;
 constexpr int kFormVersion = 9;   // of the form alone
 constexpr int kFocusVersion = 2;  // of the focus alone
 
@@ -114,9 +114,12 @@ void add_plate(Hasher& hasher, const Shot& shot) {
         .text(shot.project.plate.layer)
         .value(shot.project.plate.movie_start);
     add_plate_ids(hasher, shot);
-    hasher.text(shot.spaces.plate.name)
-        .value(static_cast<int>(shot.project.plate.missing))
-        .value(static_cast<int>(shot.plan.quality));
+    hasher.text(shot.spaces.plate.name).value(static_cast<int>(shot.project.plate.missing));
+}
+
+// And what light, gloss and focus depend on; mattes are those of any quality.
+void add_quality(Hasher& hasher, const Shot& shot) {
+    hasher.value(static_cast<int>(shot.plan.quality));
 }
 
 // The keys of what is propagated from a layer's keyframes. `in_front`: the holdouts that hide some
@@ -177,6 +180,7 @@ Expected<std::string> surface_key(const Shot& shot, std::size_t index, const Fil
     const Region& region = *shot.project.regions[shot.region_index[index]];
     Hasher hasher;
     add_plate(hasher, shot);
+    add_quality(hasher, shot);
     hasher.text(shot.spaces.working.name);
     WEFT_CHECK_OK(add_mattes(hasher, region, files));
     WEFT_CHECK_OK(add_pattern(hasher, region.motion.files, files));
@@ -270,6 +274,7 @@ Expected<std::string> focus_key(const Shot& shot, std::size_t index, const Files
     const Region& region = *shot.project.regions[shot.region_index[index]];
     Hasher hasher;
     add_plate(hasher, shot);
+    add_quality(hasher, shot);
     hasher.text("focus").value(kFocusVersion).text(shot.spaces.working.name);
     WEFT_CHECK_OK(add_mattes(hasher, region, files));
     WEFT_CHECK_OK(add_pattern(hasher, region.finish.depth, files));

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increase this when the result of the estimate changes.
-constexpr int kMotionVersion = 3;
+constexpr int kMotionVersion = 4;
 
 class DiskStages final : public StageStore {
   public:
@@ -82,7 +82,7 @@ std::shared_ptr<StageStore> open_stage_cache(const Shot& shot, const std::string
         .text(shot.project.plate.layer)
         .value(shot.project.plate.movie_start);
     add_plate_ids(hasher, shot);
-    hasher.text(shot.spaces.plate.name).value(static_cast<int>(shot.plan.quality));
+    hasher.text(shot.spaces.plate.name);
     const fs::path planes = fs::path(root) / "planes";
     const fs::path motion = fs::path(root) / "motion" / hasher.finish().hex();
     // A run that was killed while it wrote leaves its file there.

@@ -76,7 +76,7 @@ Expected<std::unique_ptr<DraftAnalysis>> draft_analysis(const ShotSource& source
     const int factor = draft_factor(plan, source.size());
     auto out = std::make_unique<DraftAnalysis>(plan, factor, source.size());
     out->plan.frames = {frame};
-    out->plan.quality = FlowQuality::kDraft;
+    out->plan.quality = out->plan.motion_quality = FlowQuality::kDraft;
     for (std::size_t k = 0; k < plan.regions.size(); ++k) {
         RegionPlan& region = out->plan.regions[k];
         keep_motion_only(region);

@@ -241,7 +241,9 @@ struct RegionPlan {
 /// Settings of the whole shot.
 struct ShotPlan {
     std::vector<int> frames;  ///< To be rendered, ascending.
+    /// Of light and of sampling. A draft and its final share mattes and tracks as far as they may.
     FlowQuality quality = FlowQuality::kFinal;
+    FlowQuality motion_quality = FlowQuality::kFinal;
     std::uint64_t seed = 1;
     bool display_referred = true;  ///< The output rolls off above 1.
     std::shared_ptr<const ColorTransform> working_from_plate, display_from_plate, out_from_working,

@@ -135,7 +135,7 @@ class Follower {
             placed = corrected(LatticeField(size, SurfaceTrack::spacing_for(size, motion)), *pins);
             base = &*placed;
         }
-        begin_walk(job, *at.views, stop, context_.plan.quality, base);
+        begin_walk(job, *at.views, stop, context_.plan.motion_quality, base);
         job.walked_to = job.anchored_at = at.frame;
         if (job.paper && at.frame == job.primary) {
             job.painter.emplace(*job.plan, context_.plan.seed, context_.source.size(),

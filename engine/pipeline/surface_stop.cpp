@@ -106,7 +106,7 @@ SurfaceStops::Gather SurfaceStops::begin_step(const SurfaceJob& job, Before& bef
     }
     before.frame = step_frame(*at.views, stop.visible, stop.extent, prev.get());
     stop.step = WalkStep{before.frame, {}};
-    return [prev, motion = at.prev_from_cur, quality = context_.plan.quality,
+    return [prev, motion = at.prev_from_cur, quality = context_.plan.motion_quality,
             walks = context_.plan.keep_walks ? walks : nullptr, key = before.key, frame = at.frame,
             previous = before.number, asks_outline = job.asks_outline](SurfaceStop& s) {
         static_cast<void>(s.step->frame->picture());  // the walk registers it
@@ -134,7 +134,7 @@ Hash128 SurfaceStops::key_of(const Before& before, const Hash128& views, const S
         .value(views.low)
         .image(stop.visible)
         .image(stop.extent)
-        .value(static_cast<int>(context_.plan.quality))
+        .value(static_cast<int>(context_.plan.motion_quality))
         .finish();
 }
 

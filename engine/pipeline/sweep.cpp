@@ -146,7 +146,8 @@ FlowField motion_between(const ShotPlan& plan, int frame, const PlateViews& curr
     if (plan.stages) {
         if (auto kept = plan.stages->motion(frame, previous)) return std::move(*kept);
     }
-    FlowPair motion = estimate_flows(current.followed(), previous_views.followed(), plan.quality);
+    FlowPair motion =
+        estimate_flows(current.followed(), previous_views.followed(), plan.motion_quality);
     check_consistency(motion.b_from_a, motion.a_from_b.d);
     return std::move(motion.b_from_a);
 }
@@ -173,7 +174,7 @@ Status keep_motion(const ShotSource& source, const ShotPlan& plan, const std::ve
             if (!known && are_neighbours(*here.views, before)) {
                 // One estimate in each direction serves sweeps both ways.
                 auto [down, up] =
-                    estimate_flows(here.views->followed(), before.followed(), plan.quality);
+                    estimate_flows(here.views->followed(), before.followed(), plan.motion_quality);
                 check_consistency(down, up);
                 plan.stages->keep_motion(frame, frame - 1, down);
                 plan.stages->keep_motion(frame - 1, frame, up);

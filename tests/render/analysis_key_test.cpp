@@ -11,8 +11,10 @@ namespace {
 
 class AnalysisKeyTest : public ShotTest {
   protected:
-    RegionKeys keys_after(const std::function<void(Region&)>& change) const {
+    RegionKeys keys_after(const std::function<void(Region&)>& change,
+                          Quality quality = Quality::kDraft) const {
         JobSpec job = spec("out");
+        job.project.settings.quality = quality;
         Region region = *job.project.regions[0];
         change(region);
         job.project.regions[0] = region;
@@ -68,6 +70,23 @@ TEST_F(AnalysisKeyTest, OfZonesItNamesWhatIsPropagated) {
     EXPECT_EQ(of_painted.mattes.size(), 1u);
     EXPECT_EQ(keys(1.5, painted), of_painted) << "values are applied when a frame is rendered";
     EXPECT_NE(keys(0, elsewhere), of_painted);
+}
+
+TEST_F(AnalysisKeyTest, ADraftAndItsFinalShareThePropagatedMattes) {
+    write_different_mattes();
+    const auto keys = [&](Quality quality) {
+        return keys_after(
+            [&](Region& r) {
+                MatteSource painted;
+                painted.keyframes[1] = {in("a.png")};
+                r.matte = painted;
+            },
+            quality);
+    };
+    const RegionKeys draft = keys(Quality::kDraft), final = keys(Quality::kFinal);
+    EXPECT_EQ(draft.mattes, final.mattes);
+    EXPECT_NE(draft.surface, final.surface) << "light is estimated more finely";
+    EXPECT_NE(draft.focus, final.focus);
 }
 
 TEST_F(AnalysisKeyTest, AKeyframeNamesTheMattesUpToItsNeighboursOnly) {
