@@ -16,7 +16,7 @@ namespace weft {
 /// Thread-safe.
 class MatteFeed {
   public:
-    static constexpr int kMostAhead = 4;  ///< Frames.
+    static constexpr int kMostAhead = 2;  ///< Frames.
 
     explicit MatteFeed(AnalysisStore& store) : maker_(*this), taker_(*this), store_(store) {}
 
