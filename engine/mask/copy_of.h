@@ -15,4 +15,11 @@ template <class T, int C>
     return result;
 }
 
+/// Writes `part` over the pixels of `into` that begin at (at.x0, at.y0).
+template <class T, int C>
+void paste(Image<T, C>& into, const Image<T, C>& part, const Recti& at) {
+    for (int y = 0; y < part.height(); ++y)
+        std::copy(part.row(y), part.row(y) + part.stride(), into.pixel(at.x0, at.y0 + y));
+}
+
 }  // namespace weft

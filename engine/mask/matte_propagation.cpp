@@ -23,6 +23,7 @@
 #include "engine/mask/motion_sides.h"
 #include "engine/mask/nearest_pixel.h"
 #include "engine/mask/newcomers.h"
+#include "engine/mask/painted_sides.h"
 #include "engine/mask/part_return.h"
 #include "engine/mask/resting_scene.h"
 #include "engine/mask/shape_transport.h"
@@ -41,12 +42,6 @@ constexpr float kUnsureClearancePx = 6;
 constexpr float kFarBands = 0.8f;      // motion that leads so far outside is believed
 constexpr float kBandUnits = 10;       // pixels of 854×480 in a band
 constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
-
-template <class T, int C>
-void paste(Image<T, C>& into, const Image<T, C>& part, const Recti& at) {
-    for (int y = 0; y < part.height(); ++y)
-        std::copy(part.row(y), part.row(y) + part.stride(), into.pixel(at.x0, at.y0 + y));
-}
 
 Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
     if (bounds.empty()) return bounds;
@@ -85,6 +80,7 @@ struct MatteWalker::State {
     std::optional<Followed> followed = {};  ///< Where walks are merged.
     float since_confidence = 1;             ///< Of what was confirmed last.
     bool soft_edges = false;                ///< Whether key_softness is anything but 0.
+    bool at_key = true;                     ///< No step has been made.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
@@ -292,17 +288,13 @@ void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_c
     const Matte islands =
         left_behind.advance({now, distance, phi, newcomers.entered(), prev_from_cur, background,
                              key_frame, key_phi, palette, key_from_prev, unit_px()});
-    if (islands.empty()) return;
-    Matte kept(distance.size());
-    for (int y = 0; y < kept.height(); ++y) {
-        for (int x = 0; x < kept.width(); ++x)
-            kept.at(x, y) = distance.at(x, y) > 0 && islands.at(x, y) == 0 ? 255 : 0;
-    }
-    take_over(kept, scale.limit_px, distance, matte);
+    if (!islands.empty())
+        take_over(inside_without(distance, islands), scale.limit_px, distance, matte);
 }
 
 MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
     State& s = *state_;
+    s.at_key = false;
     Matte inside(s.last.size()), wrong(s.last.size());
     bool any = false;
     for (int y = 0; y < inside.height(); ++y) {
@@ -336,7 +328,17 @@ bool MatteWalker::has_soft_edges() const {
     return state_->soft_edges;
 }
 
+// The walk goes by what was meant, not by what was painted loosely.
+void MatteWalker::begin_again(ViewU8x3 next, const FlowField& measured) {
+    const State& s = *state_;
+    const Matte meant = painted_sides({s.frame, s.last, next, measured, s.unit_px()});
+    if (meant.empty()) return;
+    *this = MatteWalker(s.frame, meant, s.options);
+    state_->at_key = false;
+}
+
 MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, ViewU8x1 in_front) {
+    if (std::exchange(state_->at_key, false) && in_front.empty()) begin_again(frame, measured);
     State& s = *state_;
     const Matte covered = hidden_part(in_front);
     const FlowField behind =

@@ -60,6 +60,8 @@ class MatteWalker {
     [[nodiscard]] bool has_soft_edges() const;
 
   private:
+    void begin_again(ViewU8x3 next, const FlowField& measured);
+
     struct State;
     std::unique_ptr<State> state_;
 };

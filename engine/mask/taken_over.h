@@ -12,4 +12,7 @@ namespace weft {
 /// `limit_px`, and the matte of it. What is as it was keeps its edge to a fraction of a pixel.
 void take_over(const Matte& inside, float limit_px, ImageF1& distance, Matte& matte);
 
+/// 255 where `distance` is inside and `pieces` is 0; both of one size.
+[[nodiscard]] Matte inside_without(ViewF1 distance, const Matte& pieces);
+
 }  // namespace weft
