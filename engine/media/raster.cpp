@@ -112,6 +112,14 @@ Pick pick_of(const ChannelChoice& choice) {
     return pick;
 }
 
+// OpenImageIO 2.4 does not say that the second of two channels of a PSD or SGI is alpha. A
+// TIFF says itself what its channels are.
+int alpha_of(const ImageInput& input) {
+    const ImageSpec& spec = input.spec();
+    const bool says = is_exr(input) || std::string_view(input.format_name()) == "tiff";
+    return says || spec.nchannels != 2 ? spec.alpha_channel : 1;
+}
+
 std::vector<PartNames> names_of(ImageInput& input) {
     // Only EXR parts can be pictures of the same frame; elsewhere subimages are pages or
     // thumbnails.
@@ -120,7 +128,7 @@ std::vector<PartNames> names_of(ImageInput& input) {
     for (int part = 0; part < most && input.seek_subimage(part, 0); ++part) {
         const ImageSpec& spec = input.spec();
         parts.push_back({std::string(spec.get_string_attribute("oiio:subimagename")),
-                         spec.channelnames, spec.alpha_channel, spec.deep});
+                         spec.channelnames, alpha_of(input), spec.deep});
     }
     static_cast<void>(input.geterror());
     return parts;
