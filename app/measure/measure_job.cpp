@@ -266,11 +266,9 @@ Expected<ImageU8x3> ideal_plane(const Project& project, const RegionPlan& plan, 
     const Region& region = *project.regions.front();
     const auto read = [&](const std::string& path) -> Expected<ImageU8x3> {
         WEFT_TRY(picture, read_image(path));
-        const bool is_float =
-            picture.depth == PixelDepth::kHalf || picture.depth == PixelDepth::kFloat;
         const std::string& given =
             region.texture.space.empty() ? project.color.texture_space : region.texture.space;
-        WEFT_TRY(space, parse_color_space(!given.empty() ? given : is_float ? "linear" : "srgb"));
+        WEFT_TRY(space, parse_color_space(given.empty() ? picture.color.space : given));
         WEFT_TRY(display, make_color_transform(space, {"srgb"}));
         return make_views(picture.rgb, *display).display;
     };

@@ -170,8 +170,7 @@ class ProjectSource final : public ShotSource {
             else if (of_plate.associated())
                 unassociate(picture.rgb, *of_plate.coverage);
         }
-        const bool coded = picture.depth == PixelDepth::kU8 || picture.depth == PixelDepth::kU16;
-        WEFT_TRY(to_linear, make_color_transform({coded ? "srgb" : "linear"}, {"linear"}));
+        WEFT_TRY(to_linear, make_color_transform({picture.color.space}, {"linear"}));
         to_linear->apply(picture.rgb);
         return std::move(picture.rgb);
     }

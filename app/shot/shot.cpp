@@ -358,8 +358,7 @@ class ShotOpener {
                         "Choose one" + by({{setting::kLightSource}}) + ".");
         }
         WEFT_TRY(picture, read_image(watched(region.light.image)));
-        WEFT_TRY(to_linear,
-                 make_color_transform({float_depth(picture.depth) ? kLinear : kSrgb}, {kLinear}));
+        WEFT_TRY(to_linear, make_color_transform({picture.color.space}, {kLinear}));
         to_linear->apply(picture.rgb);
         plan.light_picture = std::make_shared<const ImageF3>(std::move(picture.rgb));
         return {};

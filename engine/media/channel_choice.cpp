@@ -133,6 +133,22 @@ std::vector<ChannelChoice> picture_layers(const std::vector<PartNames>& parts) {
     return found;
 }
 
+// What is all that a file holds leaves no choice: a matte's A, or Krita's only paint layer.
+std::optional<ChannelChoice> only_layer(const std::vector<PartNames>& parts) {
+    if (parts.size() != 1 || parts[0].channels.empty() || is_data(parts[0])) return std::nullopt;
+    const std::vector<std::string>& channels = parts[0].channels;
+    const std::string layer = layer_of(channels[0]);
+    const bool one = std::all_of(channels.begin(), channels.end(),
+                                 [&](const auto& channel) { return layer_of(channel) == layer; });
+    if (!one || names_data(layer)) return std::nullopt;
+    if (channels.size() == 1) {
+        if (names_data(channels[0])) return std::nullopt;
+        return choice_of(0, {0}, -1);
+    }
+    if (auto choice = rgb_of(parts[0], 0, layer + ".")) return choice;
+    return grey_of(parts[0], 0, layer + ".", false);
+}
+
 // The picture of an EXR if no layer is requested; empty if that is ambiguous.
 std::optional<ChannelChoice> evident(const std::vector<PartNames>& parts) {
     const auto first = [&](auto&& choose) -> std::optional<ChannelChoice> {
@@ -149,12 +165,7 @@ std::optional<ChannelChoice> evident(const std::vector<PartNames>& parts) {
     if (layers.size() > 1) return std::nullopt;
     if (auto choice = first([](const PartNames& p, int k) { return grey_of(p, k, "", false); }))
         return choice;
-    // A single channel, such as a matte's A: there is no choice.
-    const bool alone = parts.size() == 1 && parts[0].channels.size() == 1 && !is_data(parts[0]);
-    if (!alone) return std::nullopt;
-    const std::string& only = parts[0].channels[0];
-    if (names_data(only) || names_data(layer_of(only))) return std::nullopt;
-    return choice_of(0, {0}, -1);
+    return only_layer(parts);
 }
 
 std::string listed(const std::vector<PartNames>& parts, bool channels) {
@@ -176,6 +187,13 @@ std::string listed(const std::vector<PartNames>& parts, bool channels) {
         list += (list.empty() ? "" : ", ") + name;
     }
     return list;
+}
+
+// Textures and passes have no setting for the layer.
+std::string name_one_of(const std::string& layers) {
+    return "Name a layer if it is the plate" + by({{setting::kPlateLayer}}) +
+           ", a channel if it is a matte" + by({{setting::kMatteChannel}}) +
+           ", or write the one that is meant by itself; its layers are: " + layers + ".";
 }
 
 Error nothing_chosen(const std::string& path, const std::vector<PartNames>& parts,
@@ -213,16 +231,13 @@ Error nothing_chosen(const std::string& path, const std::vector<PartNames>& part
                                          : "Its layers are: " + layers + ".");
     }
     if (picture_layers(parts).size() > 1) {
-        return unreadable(path, "several of its layers may be the picture",
-                          "Name one of them" + by({{setting::kPlateLayer}}) + ": " + layers + ".");
+        return unreadable(path, "several of its layers may be the picture", name_one_of(layers));
     }
     if (layers.empty()) {
         return unreadable(path, "it has no colours, only the channels " + channels,
                           "Give a file with R, G and B.");
     }
-    return unreadable(
-        path, "it has no channels R, G, B",
-        "Name one of its layers" + by({{setting::kPlateLayer}}) + ": " + layers + ".");
+    return unreadable(path, "it has no channels R, G, B", name_one_of(layers));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/media/big_endian.h"
+#include "engine/media/icc_profile.h"
 
 namespace weft {
 namespace {
@@ -49,7 +50,9 @@ std::string text_of(const unsigned char* tag, std::size_t bytes) {
     } else if (kind == "mluc" && bytes >= 28) {
         const std::size_t length = big_endian_u32(tag + 20), start = big_endian_u32(tag + 24);
         if (start > bytes || length > bytes - start) return {};
-        for (std::size_t i = 0; i + 1 < length; i += 2)
+        // Some names end with a 0 that is counted.
+        for (std::size_t i = 0; i + 1 < length && (tag[start + i] | tag[start + i + 1]) != 0;
+             i += 2)
             out += tag[start + i] == 0 ? static_cast<char>(tag[start + i + 1]) : '?';
     }
     constexpr std::size_t kLongest = 80;
@@ -59,19 +62,8 @@ std::string text_of(const unsigned char* tag, std::size_t bytes) {
 }  // namespace
 
 std::string icc_profile_name(const unsigned char* profile, std::size_t bytes) {
-    constexpr std::size_t kHeader = 128, kEntry = 12;  // ICC.1:2010, 7.2 and 7.3
-    if (!profile || bytes < kHeader + 4) return {};
-    const std::uint32_t count = big_endian_u32(profile + kHeader);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::size_t at = kHeader + 4 + i * kEntry;
-        if (at + kEntry > bytes) return {};
-        if (std::string_view(reinterpret_cast<const char*>(profile + at), 4) != "desc") continue;
-        const std::size_t offset = big_endian_u32(profile + at + 4),
-                          size = big_endian_u32(profile + at + 8);
-        if (offset > bytes || size > bytes - offset) return {};
-        return text_of(profile + offset, size);
-    }
-    return {};
+    const auto tag = icc_tag(profile, bytes, "desc");
+    return text_of(tag.data(), tag.size());
 }
 
 std::string note_of_profile(const std::string& name) {

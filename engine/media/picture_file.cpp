@@ -1,5 +1,6 @@
 #include "engine/media/picture_file.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string_view>
@@ -60,22 +61,50 @@ std::string reader_of(const std::string& path, std::string_view head) {
     return extension == ".tga" ? "targa" : "";
 }
 
-// Pages, layers and moments of one size: the first is as likely to be the background as the
-// picture. A preview is smaller.
+// Whether `other` may be the picture instead of `first`. A preview is smaller, and GIMP's layers,
+// which may be smaller too, are marked as pages (NewSubfileType, TIFF 6.0, section 8).
+bool is_another_picture(const OIIO::ImageSpec& first, const OIIO::ImageSpec& other) {
+    constexpr int kReduced = 1, kPage = 2;
+    if (other.width == first.width && other.height == first.height) return true;
+    const int kind = other.get_int_attribute("tiff:subfiletype");
+    if ((kind & kReduced) != 0) return false;
+    return (kind & kPage) != 0 || other.width > first.width || other.height > first.height;
+}
+
+// Pages, layers and moments: the first is as likely to be the background as the picture.
 Status check_pages(const std::string& path, OIIO::ImageInput& input) {
     const OIIO::ImageSpec first = input.spec();
-    const bool has_second = input.seek_subimage(1, 0);
-    const bool alike =
-        has_second && input.spec().width == first.width && input.spec().height == first.height;
+    constexpr int kMostLooks = 64;
+    bool several = false;
+    for (int page = 1; !several && page < kMostLooks && input.seek_subimage(page, 0); ++page)
+        several = is_another_picture(first, input.spec());
     static_cast<void>(input.geterror());
-    if (alike && first.get_int_attribute("oiio:Movie") != 0) return tl::unexpected(animated(path));
-    if (alike) {
-        return tl::unexpected(
-            unreadable(path, "it holds several pictures of one size, as pages or layers",
-                       "Flatten it, or save the one that is meant by itself."));
+    if (several && first.get_int_attribute("oiio:Movie") != 0)
+        return tl::unexpected(animated(path));
+    if (several) {
+        return tl::unexpected(unreadable(path, "it holds several pictures, as pages or layers",
+                                         "Flatten it, or save the one that is meant by itself."));
     }
     if (!input.seek_subimage(0, 0)) return tl::unexpected(damaged(path, input.geterror()));
     return {};
+}
+
+// OpenImageIO 2.4 reads wrong colours from an indexed PSD, takes the inks of a multichannel one for
+// red, green and blue, and does not know Lab and duotone.
+Status check_psd_mode(const std::string& path, std::string_view head) {
+    constexpr std::size_t kModeAt = 24;
+    constexpr std::array kReadable{0, 1, 3, 4};  // bitmap, grey, RGB, CMYK
+    if (head.size() < kModeAt + 2) return {};
+    const int mode = static_cast<unsigned char>(head[kModeAt]) << 8 |
+                     static_cast<unsigned char>(head[kModeAt + 1]);
+    if (std::find(kReadable.begin(), kReadable.end(), mode) != kReadable.end()) return {};
+    const std::string name = mode == 2   ? "indexed colours"
+                             : mode == 7 ? "multichannel"
+                             : mode == 8 ? "duotone"
+                             : mode == 9 ? "Lab"
+                                         : "number " + std::to_string(mode);
+    return tl::unexpected(unreadable(path, "it is a PSD of the colour mode " + name,
+                                     "Convert it to RGB or grey, and save it again."));
 }
 
 }  // namespace
@@ -93,10 +122,15 @@ Expected<std::unique_ptr<OIIO::ImageInput>> open_picture(const std::string& path
                                                          const OIIO::ImageSpec& config) {
     WEFT_CHECK_OK(check_picture_file(path));
     WEFT_TRY(file, InputFile::open(path));
-    std::array<char, 16> head{};
+    std::array<char, 26> head{};
     WEFT_TRY(count, file.read_at(0, head.data(), head.size()));
     const std::string reader = reader_of(path, {head.data(), count});
-    if (reader.empty()) return tl::unexpected(damaged(path, "its kind is unknown"));
+    if (reader.empty()) {
+        return tl::unexpected(unreadable(
+            path, "its kind is unknown, so it is damaged, a program's own document, or no picture",
+            "Export it as PNG, TIFF or EXR, or write or copy it again."));
+    }
+    if (reader == "psd") WEFT_CHECK_OK(check_psd_mode(path, {head.data(), count}));
     // OpenImageIO lets libpng print errors of the header.
     if (reader == "png") WEFT_CHECK_OK(probe_png(path));
     auto input = OIIO::ImageInput::create(reader);

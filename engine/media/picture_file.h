@@ -18,8 +18,8 @@ namespace weft {
 /// Opens the file with the reader that its first bytes require, whatever its extension. By default
 /// OpenImageIO tries all its readers on a file of unknown kind: that of DICOM reads an endless file
 /// to its end, and that of FFmpeg follows play lists to other files. Thread-safe. Errors: those of
-/// check_picture_file(); Unreadable if its kind is unknown, it is damaged, a TIFF with
-/// several pictures of one size, or an animation.
+/// check_picture_file(); Unreadable if its kind is unknown, it is damaged, a TIFF with several
+/// pages or layers, an animation, or a PSD of a colour mode that OpenImageIO does not read right.
 [[nodiscard]] Expected<std::unique_ptr<OIIO::ImageInput>> open_picture(
     const std::string& path, const OIIO::ImageSpec& config = {});
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/core/input_file.h"
+#include "engine/media/icc_profile.h"
 #include "engine/media/orientation.h"
 #include "engine/media/png_plain.h"
 #include "engine/media/raster_errors.h"
@@ -105,13 +106,16 @@ class PngHandle {
         if (!png_get_eXIf_1(png_, info_, &bytes, &exif)) return 1;
         return orientation_of_exif(exif, bytes);
     }
-    [[nodiscard]] std::string color_note() const;
+    [[nodiscard]] FileColor color() const;
     [[nodiscard]] RasterInfo info_as_seen() const {
         const int turned = orientation();
         const double aspect = pixel_aspect();
-        return {
-            upright(size(), turned), kind(), 0.0, lies_on_its_side(turned) ? 1 / aspect : aspect,
-            {"srgb", color_note()},  turned};
+        return {upright(size(), turned),
+                kind(),
+                0.0,
+                lies_on_its_side(turned) ? 1 / aspect : aspect,
+                color(),
+                turned};
     }
     [[nodiscard]] Size size() const {
         return {static_cast<int>(png_get_image_width(png_, info_)),
@@ -142,26 +146,26 @@ class PngHandle {
 
 // The sRGB chunk has precedence, then a profile, then gAMA and cHRM (PNG 1.2, 11.3.3); before all
 // of them cICP.
-std::string PngHandle::color_note() const {
+FileColor PngHandle::color() const {
     constexpr int kPq = 16, kHlg = 18;
     const auto transfer = transfer_of(png_, info_);
-    if (transfer == kPq || transfer == kHlg) return "is an HDR picture (PQ or HLG)";
+    if (transfer == kPq || transfer == kHlg) return {"srgb", "is an HDR picture (PQ or HLG)"};
     if (png_get_valid(png_, info_, PNG_INFO_sRGB) != 0) return {};
     png_charp name = nullptr;
     png_bytep profile = nullptr;
     png_uint_32 bytes = 0;
     int compression = 0;
     if (png_get_iCCP(png_, info_, &name, &compression, &profile, &bytes) != 0)
-        return note_of_profile(icc_profile_name(profile, bytes));
+        return color_of_profile(profile, bytes, "srgb");
     double gamma = 0;
     if (png_get_gAMA(png_, info_, &gamma) != 0) {
-        if (auto note = note_of_gamma(gamma); !note.empty()) return note;
+        if (auto note = note_of_gamma(gamma); !note.empty()) return {"srgb", note};
     }
     std::array<double, 8> xy{};
     if (png_get_cHRM(png_, info_, &xy[6], &xy[7], &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5]) ==
         0)
         return {};
-    return note_of_primaries(xy);
+    return {"srgb", note_of_primaries(xy)};
 }
 
 void set_transforms(const PngHandle& handle, bool raw_codes) {

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "engine/media/channel_choice.h"
+#include "engine/media/icc_profile.h"
 #include "engine/media/orientation.h"
 #include "engine/media/picture_file.h"
 #include "engine/media/plate_decode.h"
@@ -111,6 +112,14 @@ Pick pick_of(const ChannelChoice& choice) {
     return pick;
 }
 
+// OpenImageIO 2.4 does not say that the second of two channels of a PSD or SGI is alpha. A
+// TIFF says itself what its channels are.
+int alpha_of(const ImageInput& input) {
+    const ImageSpec& spec = input.spec();
+    const bool says = is_exr(input) || std::string_view(input.format_name()) == "tiff";
+    return says || spec.nchannels != 2 ? spec.alpha_channel : 1;
+}
+
 std::vector<PartNames> names_of(ImageInput& input) {
     // Only EXR parts can be pictures of the same frame; elsewhere subimages are pages or
     // thumbnails.
@@ -119,7 +128,7 @@ std::vector<PartNames> names_of(ImageInput& input) {
     for (int part = 0; part < most && input.seek_subimage(part, 0); ++part) {
         const ImageSpec& spec = input.spec();
         parts.push_back({std::string(spec.get_string_attribute("oiio:subimagename")),
-                         spec.channelnames, spec.alpha_channel, spec.deep});
+                         spec.channelnames, alpha_of(input), spec.deep});
     }
     static_cast<void>(input.geterror());
     return parts;
@@ -230,30 +239,44 @@ int orientation_of(const ImageInput& input) {
     return orientation >= 1 && orientation <= 8 ? orientation : 1;
 }
 
-std::string note_of(const ImageInput& input) {
-    const ImageSpec& spec = input.spec();
-    if (is_exr(input)) {
-        std::array<float, 8> xy{};
-        const OIIO::TypeDesc type(OIIO::TypeDesc::FLOAT, 8);
-        if (!spec.getattribute("chromaticities", type, xy.data())) return {};
-        std::array<double, 8> wide{};
-        std::copy(xy.begin(), xy.end(), wide.begin());
-        return note_of_primaries(wide);
-    }
-    const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
-    if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return {};
-    return note_of_profile(icc_profile_name(static_cast<const unsigned char*>(profile->data()),
-                                            static_cast<std::size_t>(profile->datasize())));
+std::string note_of_exr(const ImageSpec& spec) {
+    std::array<float, 8> xy{};
+    const OIIO::TypeDesc type(OIIO::TypeDesc::FLOAT, 8);
+    if (!spec.getattribute("chromaticities", type, xy.data())) return {};
+    std::array<double, 8> wide{};
+    std::copy(xy.begin(), xy.end(), wide.begin());
+    return note_of_primaries(wide);
 }
 
-FileColor color_of(const ImageInput& input, SampleKind kind) {
+// The colour of a file whose values are else read as `by_type`.
+FileColor color_by_profile(const ImageInput& input, const std::string& path,
+                           const std::string& by_type) {
+    const std::string_view format = input.format_name();
+    const OIIO::ParamValue* profile = input.spec().find_attribute("ICCProfile");
+    if (!profile && format == "webp") {
+        const std::vector<unsigned char> own = profile_of_webp(path);
+        return own.empty() ? FileColor{by_type, {}}
+                           : color_of_profile(own.data(), own.size(), by_type);
+    }
+    if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return {by_type, {}};
+    FileColor color = color_of_profile(static_cast<const unsigned char*>(profile->data()),
+                                       static_cast<std::size_t>(profile->datasize()), by_type);
+    // GIMP 2.10 gives its linear profile to a PSD whose samples are encoded for a display.
+    if (format == "psd" && color.note.find("GIMP built-in") != std::string::npos)
+        color.space = by_type;
+    return color;
+}
+
+FileColor color_of(const ImageInput& input, const std::string& path, SampleKind kind) {
     const std::string_view format = input.format_name();
     const std::string transfer(input.spec().get_string_attribute("dpx:Transfer"));
     const bool log =
         format == "cineon" ||
         (format == "dpx" && (transfer == "Logarithmic" || transfer == "Printing density"));
     if (log) return {"cineon", {}};
-    return {is_display_encoded(kind) ? "srgb" : "linear", note_of(input)};
+    const std::string by_type = is_display_encoded(kind) ? "srgb" : "linear";
+    return is_exr(input) ? FileColor{by_type, note_of_exr(input.spec())}
+                         : color_by_profile(input, path, by_type);
 }
 
 Expected<RasterInfo> info_of(const ImageInput& input, const std::string& path, const Pick& pick) {
@@ -270,7 +293,7 @@ Expected<RasterInfo> info_of(const ImageInput& input, const std::string& path, c
                       kind,
                       fps_of(spec),
                       lies_on_its_side(orientation) ? 1 / aspect : aspect,
-                      color_of(input, kind),
+                      color_of(input, path, kind),
                       orientation};
 }
 

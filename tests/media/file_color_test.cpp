@@ -9,6 +9,7 @@
 #include "engine/media/file_color.h"
 #include "engine/media/frame_pacing.h"
 #include "engine/media/frame_reader.h"
+#include "engine/media/icc_profile.h"
 #include "engine/media/image_files.h"
 #include "engine/media/orientation.h"
 #include "tests/media/media_fixture.h"
@@ -85,10 +86,11 @@ std::string profile_named(const std::string& name, bool version4) {
     };
     std::string tag;
     if (version4) {
-        tag = "mluc" + number(0) + number(1) + number(12) + "enUS" + number(2 * name.size()) +
+        tag = "mluc" + number(0) + number(1) + number(12) + "enUS" + number(2 * name.size() + 2) +
               number(28);
         for (const char c : name)
             tag += std::string("\0", 1) + c;
+        tag += std::string(2, '\0');
     } else {
         tag = "desc" + number(0) + number(name.size() + 1) + name + std::string("\0", 1);
     }
@@ -118,6 +120,83 @@ TEST_F(FileColorTest, ProfilesAreNamed) {
     }
 }
 
+std::string big_endian(std::size_t value, int bytes) {
+    std::string out;
+    for (int k = bytes - 1; k >= 0; --k)
+        out += static_cast<char>(value >> 8 * k & 255);
+    return out;
+}
+
+std::string gamma_table(std::initializer_list<int> values) {
+    std::string tag = "curv" + big_endian(0, 4) + big_endian(values.size(), 4);
+    for (const int value : values)
+        tag += big_endian(static_cast<std::uint32_t>(value), 2);
+    return tag + std::string(tag.size() % 4, '\0');
+}
+
+std::string formula(int kind, std::initializer_list<double> parameters) {
+    std::string tag = "para" + big_endian(0, 4) + big_endian(static_cast<std::uint32_t>(kind), 2) +
+                      big_endian(0, 2);
+    for (const double p : parameters)
+        tag += big_endian(static_cast<std::uint32_t>(std::lround(p * 65536)), 4);
+    return tag;
+}
+
+// A profile of grey displays as libpng wants it (ICC.1:2010, 7.2), with a name and a curve.
+std::string grey_profile(const std::string& name, const std::string& curve) {
+    std::string description = "desc" + big_endian(0, 4) + big_endian(name.size() + 1, 4) + name;
+    description += std::string(4 - description.size() % 4, '\0');
+    const std::uint32_t first = 128 + 4 + 2 * 12,
+                        second = first + static_cast<std::uint32_t>(description.size()),
+                        end = second + static_cast<std::uint32_t>(curve.size());
+    std::string header = big_endian(end, 4) + std::string(4, '\0') + big_endian(0x02400000, 4) +
+                         "mntrGRAYXYZ " + std::string(12, '\0') + "acsp" + std::string(28, '\0') +
+                         big_endian(0xF6D6, 4) + big_endian(0x10000, 4) + big_endian(0xD32D, 4);
+    header += std::string(128 - header.size(), '\0');
+    return header + big_endian(2, 4) + "desc" + big_endian(first, 4) +
+           big_endian(second - first, 4) + "kTRC" + big_endian(second, 4) +
+           big_endian(end - second, 4) + description + curve;
+}
+
+FileColor color_by(const std::string& profile, const std::string& by_type) {
+    return color_of_profile(reinterpret_cast<const unsigned char*>(profile.data()), profile.size(),
+                            by_type);
+}
+
+TEST_F(FileColorTest, TheCurveOfAProfileDecides) {
+    const std::string linear[]{gamma_table({}), gamma_table({256}), gamma_table({0, 32768, 65535}),
+                               formula(0, {1.0}), formula(3, {1, 1, 0, 1, 0})};
+    for (const std::string& curve : linear) {
+        const std::string profile = grey_profile("Linear sRGB", curve);
+        EXPECT_EQ(color_by(profile, "srgb").space, "linear");
+        EXPECT_EQ(color_by(profile, "srgb").note,
+                  "has the ICC profile 'Linear sRGB', which is linear");
+        EXPECT_EQ(color_by(profile, "linear").space, "linear");
+        EXPECT_EQ(color_by(profile, "linear").note, "");
+    }
+    const std::string display[]{
+        gamma_table({563}), gamma_table({0, 14000, 65535}), formula(0, {2.2}),
+        formula(3, {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045}),
+        formula(4, {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045, 0, 0})};
+    for (const std::string& curve : display) {
+        const std::string profile = grey_profile("sRGB", curve);
+        EXPECT_EQ(color_by(profile, "srgb").space, "srgb");
+        EXPECT_EQ(color_by(profile, "srgb").note, "");
+        EXPECT_EQ(color_by(profile, "linear").space, "srgb");
+        EXPECT_EQ(color_by(profile, "linear").note,
+                  "has the ICC profile 'sRGB', which is not linear");
+    }
+    const std::string whole = grey_profile("Adobe RGB (1998)", gamma_table({563}));
+    EXPECT_EQ(color_by(whole, "srgb").note, "has the ICC profile 'Adobe RGB (1998)'");
+    for (std::size_t cut = 0; cut < whole.size(); ++cut)
+        EXPECT_EQ(color_by(whole.substr(0, cut), "srgb").space, "srgb") << cut;
+    for (const std::string& cut :
+         {std::string("curv"),
+          big_endian(0x63757276, 4) + big_endian(0, 4) + big_endian(0xFFFFFFFF, 4),
+          formula(3, {1.0}), formula(9, {1.0})})
+        EXPECT_EQ(color_by(grey_profile("sRGB", cut), "linear").space, "linear");
+}
+
 // A grey PNG of 3 × 2 pixels with codes 10, 20, … 60 and what `extra` puts into its header.
 template <class F>
 void put_png(const std::string& path, F&& extra) {
@@ -136,6 +215,48 @@ void put_png(const std::string& path, F&& extra) {
     png_write_end(png, info);
     png_destroy_write_struct(&png, &info);
     std::fclose(file);
+}
+
+// GIMP and Krita save linear pictures as integers, and display-encoded ones as floats.
+TEST_F(FileColorTest, FilesWithAProfileOfTheOtherCurveAreReadByIt) {
+    const std::string linear = grey_profile("GIMP built-in Linear sRGB", gamma_table({256}));
+    const std::string display = grey_profile("GIMP built-in sRGB", gamma_table({563}));
+    const auto put = [&](const std::string& path, const std::string& profile, OIIO::TypeDesc type) {
+        OIIO::ImageSpec spec(4, 4, 1, type);
+        spec.attribute("ICCProfile",
+                       OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())),
+                       profile.data());
+        put_with(path, spec);
+    };
+    put(in("a.tif"), linear, OIIO::TypeUInt16);
+    EXPECT_EQ(color_of(in("a.tif")).space, "linear");
+    EXPECT_EQ(color_of(in("a.tif")).note,
+              "has the ICC profile 'GIMP built-in Linear sRGB', which is linear");
+    put(in("b.tif"), display, OIIO::TypeFloat);
+    EXPECT_EQ(color_of(in("b.tif")).space, "srgb");
+    EXPECT_EQ(read_image(in("b.tif")).value().color.space, "srgb");
+    put(in("c.tif"), linear, OIIO::TypeFloat);
+    EXPECT_EQ(color_of(in("c.tif")).note, "");
+    // OpenImageIO writes no profile into a WebP: VP8X with its flag, then ICCP.
+    put_with(in("a.webp"), OIIO::ImageSpec(4, 4, 3, OIIO::TypeUInt8));
+    std::vector<char> webp = bytes_of(in("a.webp"));
+    const std::string four{'\x03', '\0', '\0'}, size = big_endian(linear.size(), 4);
+    const std::string chunks =
+        "VP8X" + std::string{'\x0a', '\0', '\0', '\0', '\x20', '\0', '\0', '\0'} + four + four +
+        "ICCP" + std::string(size.rbegin(), size.rend()) + linear;
+    webp.insert(webp.begin() + 12, chunks.begin(), chunks.end());
+    const std::string total = big_endian(webp.size() - 8, 4);
+    std::copy(total.rbegin(), total.rend(), webp.begin() + 4);
+    put_bytes(in("a.webp"), webp, webp.size());
+    EXPECT_EQ(color_of(in("a.webp")).space, "linear");
+    EXPECT_THAT(read_image(in("a.webp")).value().color.note, HasSubstr("Linear sRGB"));
+    put_bytes(in("cut.webp"), webp, 40);
+    EXPECT_TRUE(profile_of_webp(in("cut.webp")).empty());
+    put_png(in("a.png"), [&](png_structp p, png_infop i) {
+        png_set_iCCP(p, i, "linear", 0, reinterpret_cast<png_const_bytep>(linear.data()),
+                     static_cast<png_uint_32>(linear.size()));
+    });
+    EXPECT_EQ(color_of(in("a.png")).space, "linear");
 }
 
 TEST_F(FileColorTest, PngGammaAndPrimariesAreSaidWithoutTheSrgbChunk) {

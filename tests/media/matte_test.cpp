@@ -84,6 +84,40 @@ TEST_F(MatteFile, ChannelsAreChosen) {
     EXPECT_THAT(read("a.png", {}, 2), ElementsAre(40, 255));  // an alpha with something to say
 }
 
+// OpenImageIO names the two channels R and G.
+TEST_F(MatteFile, GreyWithAlphaIsReadByAlpha) {
+    put<std::uint8_t>("a.sgi", 2, {90, 0, 90, 128, 90, 255}, OIIO::TypeUInt8);
+    EXPECT_THAT(read("a.sgi", {}, 3), ElementsAre(0, 128, 255));
+    EXPECT_THAT(read("a.sgi", channel("Y"), 3), ElementsAre(90, 90, 90));
+}
+
+// The header of a PSD of 2 × 1 pixels, then nothing but raw samples.
+std::string psd(int mode, int channels, const std::string& table, const std::string& samples) {
+    const auto one_of = [](int value) { return std::string{'\0', static_cast<char>(value)}; };
+    const std::string none(4, '\0');
+    return "8BPS" + one_of(1) + std::string(6, '\0') + one_of(channels) + none.substr(2) +
+           one_of(1) + none.substr(2) + one_of(2) + one_of(8) + one_of(mode) + none.substr(2) +
+           std::string{static_cast<char>(table.size() >> 8), '\0'} + table + none + none +
+           one_of(0) + samples;
+}
+
+TEST_F(MatteFile, PsdOfAModeThatWouldBeReadWrongIsRefused) {
+    const auto put_psd = [&](const std::string& name, const std::string& bytes) {
+        put_bytes(in(name), {bytes.begin(), bytes.end()}, bytes.size());
+    };
+    put_psd("grey.psd", psd(1, 1, {}, {'\0', '\x80'}));
+    EXPECT_THAT(read("grey.psd", {}, 2), ElementsAre(0, 128));
+    put_psd("indexed.psd", psd(2, 1, std::string(768, '\xff'), {'\0', '\1'}));
+    put_psd("multichannel.psd", psd(7, 3, {}, std::string(6, '\x80')));
+    put_psd("Lab.psd", psd(9, 3, {}, std::string(6, '\x80')));
+    for (const std::string mode : {"indexed", "multichannel", "Lab"}) {
+        const auto matte = read_matte(in(mode + ".psd"), {}, {2, 1});
+        ASSERT_FALSE(matte) << mode;
+        EXPECT_EQ(matte.error().code, ErrorCode::kUnreadable);
+        EXPECT_THAT(matte.error().sentence(), HasSubstr("colour mode " + mode));
+    }
+}
+
 TEST_F(MatteFile, OpaqueAlphaIsNoMatte) {
     put<std::uint8_t>("a.png", 4, {10, 10, 10, 255, 50, 50, 50, 255}, OIIO::TypeUInt8);
     EXPECT_THAT(read("a.png", {}, 2), ElementsAre(10, 50));

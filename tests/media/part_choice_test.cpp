@@ -108,6 +108,20 @@ TEST_F(PartChoice, OneChannelAloneIsTaken) {
     }
 }
 
+// Krita names the channels of a single paint layer by it.
+TEST_F(PartChoice, OneLayerAloneIsTaken) {
+    put_parts(in("a.exr"),
+              {{"", {"Background.R", "Background.G", "Background.B", "Background.A"}, 1}});
+    EXPECT_EQ(read_image(in("a.exr")).value().rgb, all(1));
+    put_parts(in("b.exr"), {{"", {"Background.Y", "Background.A"}, 1}});
+    EXPECT_EQ(read_image(in("b.exr")).value().rgb, all(1));
+    EXPECT_EQ(read_matte(in("b.exr"), {}, {}).value(), Matte(6, 5, 255));
+    put_parts(in("n.exr"), {{"", {"Normal.R", "Normal.G", "Normal.B"}, 1}});
+    expect_refused(in("n.exr"), {"plate.layer", "Normal"});
+    put_parts(in("c.exr"), {{"", {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}, 1}});
+    expect_refused(in("c.exr"), {"plate.layer", "a, b", "by itself"});
+}
+
 TEST_F(PartChoice, DeepSamplesAreNoPicture) {
     OIIO::ImageSpec spec(4, 3, 5, OIIO::TypeFloat);
     spec.channelnames = {"R", "G", "B", "A", "Z"};

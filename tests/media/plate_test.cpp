@@ -105,13 +105,14 @@ TEST_F(Plate, TheFrameNumberOfAFolderNeedNotBeTheLast) {
     EXPECT_THAT(opened(folder_.string())->frames(), ElementsAre(1, 2));
 }
 
-// Krita and GIMP save layers as pages; the first is the background.
-TEST_F(Plate, TiffWithPagesOfOneSizeIsRefused) {
-    const auto put_pages = [&](const std::string& path, int other_width) {
+// GIMP saves layers as pages of their own size; the first is the background.
+TEST_F(Plate, TiffWithPagesIsRefused) {
+    const auto put_pages = [&](const std::string& path, int other_width, int kind = 0) {
         auto output = OIIO::ImageOutput::create(path);
-        const std::vector<unsigned char> pixels(16 * 8 * 3, 99);
+        const std::vector<unsigned char> pixels(32 * 8 * 3, 99);
         for (const int width : {16, other_width}) {
-            const OIIO::ImageSpec spec(width, 8, 3, OIIO::TypeUInt8);
+            OIIO::ImageSpec spec(width, 8, 3, OIIO::TypeUInt8);
+            if (kind != 0) spec.attribute("tiff:subfiletype", kind);
             ASSERT_TRUE(output->open(path, spec,
                                      width == 16 && output->spec().width == 0
                                          ? OIIO::ImageOutput::Create
@@ -120,13 +121,20 @@ TEST_F(Plate, TiffWithPagesOfOneSizeIsRefused) {
         }
         ASSERT_TRUE(output->close());
     };
+    constexpr int kReduced = 1, kPage = 2;
     put_pages(in("layers.tif"), 16);
-    const auto layers = open_plate(in("layers.tif"), {});
-    ASSERT_FALSE(layers);
-    EXPECT_EQ(layers.error().code, ErrorCode::kUnreadable);
-    EXPECT_THAT(layers.error().sentence(), HasSubstr("pages or layers"));
+    put_pages(in("small_layer.tif"), 4, kPage);
+    put_pages(in("preview_first.tif"), 32);
+    for (const char* name : {"layers.tif", "small_layer.tif", "preview_first.tif"}) {
+        const auto layers = open_plate(in(name), {});
+        ASSERT_FALSE(layers) << name;
+        EXPECT_EQ(layers.error().code, ErrorCode::kUnreadable);
+        EXPECT_THAT(layers.error().sentence(), HasSubstr("pages or layers"));
+    }
     put_pages(in("preview.tif"), 4);
-    EXPECT_EQ(opened(in("preview.tif"))->size(), (Size{16, 8}));
+    put_pages(in("marked.tif"), 4, kReduced);
+    for (const char* name : {"preview.tif", "marked.tif"})
+        EXPECT_EQ(opened(in(name))->size(), (Size{16, 8})) << name;
 }
 
 // A chunk of a RIFF file, padded to an even length.
