@@ -150,7 +150,7 @@ class Pieces {
                 px > most * area_)
                 continue;
             // With what lies around it.
-            const int reach = static_cast<int>(std::lround(14 * in_.unit_px));
+            const int reach = around_px() + 2;
             const cv::Rect box = cv::Rect(stats.at<int>(k, cv::CC_STAT_LEFT) - reach,
                                           stats.at<int>(k, cv::CC_STAT_TOP) - reach,
                                           stats.at<int>(k, cv::CC_STAT_WIDTH) + 2 * reach,
@@ -193,13 +193,13 @@ class Pieces {
     // Goes on from the surface, stays on its plane, and lies between it and what moves.
     [[nodiscard]] bool is_surface(const cv::Mat& piece, const cv::Rect& box) const {
         constexpr double kStays = 0.6, kMoves = 0.6;
-        constexpr int kContact_px = 8, kBeside = 7, kAround = 25;
+        constexpr int kContact_px = 8, kBeside = 7;
         const cv::Mat beyond = grown(inside_(box) & plain_(box), 3);
         if (cv::countNonZero(piece & beyond) < kContact_px * in_.unit_px) return false;
         const cv::Mat stays = piece & (step_.misses(box) < 3 * step_.usual + 1);
         if (cv::countNonZero(stays) < kStays * cv::countNonZero(piece)) return false;
-        const cv::Mat around =
-            grown(piece, kAround) & ~grown(piece, kBeside) & ~inside_(box) & (step_.off(box) >= 0);
+        const cv::Mat around = grown(piece, 2 * around_px() + 1) & ~grown(piece, kBeside) &
+                               ~inside_(box) & (step_.off(box) >= 0);
         const int known = cv::countNonZero(around);
         return known > 0 &&
                cv::countNonZero(around & (step_.off(box) > 1.5 * kOnPlane_px * in_.unit_px)) >
@@ -207,6 +207,10 @@ class Pieces {
     }
 
   private:
+    // How far what lies around a piece is looked at.
+    [[nodiscard]] int around_px() const {
+        return std::max(6, static_cast<int>(std::lround(12 * in_.unit_px)));
+    }
     // A strip is the mixture of two sides.
     static bool is_thick(const cv::Mat& piece) {
         cv::Mat core;
