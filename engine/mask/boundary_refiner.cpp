@@ -198,4 +198,10 @@ RefinedBoundary refine_boundary(ViewU8x3 frame, ViewF1 expected_phi, const Local
     return result;
 }
 
+Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
+    if (bounds.empty()) return bounds;
+    const int margin = static_cast<int>(scale.limit_px) + 4;
+    return bounds.grown(margin).intersected(rect_of(frame));
+}
+
 }  // namespace weft

@@ -50,4 +50,7 @@ void place_by_coverage(ImageF1& phi, ViewU8x1 matte);
                                               ViewF1 wide_odds, const RefineScale& scale,
                                               float steadiness);
 
+/// Where the boundary of what lies in `bounds` may be found; empty if that is.
+[[nodiscard]] Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame);
+
 }  // namespace weft

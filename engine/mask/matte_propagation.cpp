@@ -43,12 +43,6 @@ constexpr float kFarBands = 0.8f;      // motion that leads so far outside is be
 constexpr float kBandUnits = 10;       // pixels of 854×480 in a band
 constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
 
-Recti working_area(const Recti& bounds, const RefineScale& scale, Size frame) {
-    if (bounds.empty()) return bounds;
-    const int margin = static_cast<int>(scale.limit_px) + 4;
-    return bounds.grown(margin).intersected(rect_of(frame));
-}
-
 }  // namespace
 
 struct MatteWalker::State {
@@ -81,6 +75,7 @@ struct MatteWalker::State {
     float since_confidence = 1;             ///< Of what was confirmed last.
     bool soft_edges = false;                ///< Whether key_softness is anything but 0.
     bool at_key = true;                     ///< No step has been made.
+    std::vector<Matte> late = {};           ///< Of the frames before, by blocks.
 
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
@@ -324,6 +319,10 @@ MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
     return s.estimate(s.last);
 }
 
+std::vector<Matte> MatteWalker::take_late() {
+    return std::exchange(state_->late, {});
+}
+
 bool MatteWalker::has_soft_edges() const {
     return state_->soft_edges;
 }
@@ -388,7 +387,8 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     s.phi = std::move(phi);
     s.seen = covered.empty() ? ImageF1() : seen_distance(s.phi, covered);
     s.plate.update(frame, s.seen_phi());
-    s.scene.remember(s.seen_phi());
+    s.late = s.scene.remember(s.seen_phi(), s.palette);
+    if (!covered.empty()) s.late.clear();
     if (!s.lost.lost(s.phi)) s.palette.follow(frame, s.seen_phi(), s.scale.band_px);
     s.frame = copy_of(frame);
     s.last = std::move(matte);

@@ -2,6 +2,7 @@
 // Propagation of a painted matte from its keyframe to the neighbouring frames.
 
 #include <memory>
+#include <vector>
 
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
@@ -55,6 +56,10 @@ class MatteWalker {
     /// on from there. Returns that frame's matte. On the frame that the walk begins with, it says
     /// what of the painted matte is known.
     [[nodiscard]] MatteEstimate confirm(const ConfirmedPart& part);
+
+    /// What the last step has found of the frames before its own, the latest first: 255 where they
+    /// were inside as well, by blocks of a picture of their shape. Empty: nothing.
+    [[nodiscard]] std::vector<Matte> take_late();
 
     /// Whether the keyframe's edge is soft anywhere: hair, fur, motion blur.
     [[nodiscard]] bool has_soft_edges() const;

@@ -14,6 +14,7 @@
 #include "engine/core/luma.h"
 #include "engine/core/parallel.h"
 #include "engine/mask/scene_light.h"
+#include "engine/mask/scene_picture.h"
 #include "engine/mask/scene_pieces.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/motion/plane_fit.h"
@@ -21,42 +22,13 @@
 namespace weft {
 namespace {
 
-constexpr float kNear_px = 60;  // of 854×480: what is around the surface
-constexpr float kKnown = 3;     // frames in which a colour was seen …
-constexpr float kSure = 6;      // … and from which on it decides
-constexpr float kMatches = 3;   // noise
+constexpr float kNear_px = 60;     // of 854×480: what is around the surface
+constexpr float kKnown = 3;        // frames in which a colour was seen …
+constexpr float kSure = 6;         // … and from which on it decides
+constexpr float kMatches = 3;      // noise
+constexpr float kClear_px = 1.5f;  // of the boundary
 constexpr float kUsuallyInside = 0.8f,
                 kUsuallyOutside = 0.2f;  // of the frames in which a place was seen
-
-ImageF3 reduced_floats(ViewU8x3 frame, int step) {
-    ImageF3 out(frame.size());
-    for (int y = 0; y < frame.height(); ++y)
-        std::copy_n(frame.row(y), 3 * static_cast<std::size_t>(frame.width()), out.row(y));
-    return block_means(out, step);
-}
-
-Vec3 color_at(const ImageF3& picture, int x, int y) {
-    const float* c = picture.pixel(x, y);
-    return {c[0], c[1], c[2]};
-}
-
-ImageF1 luma_of(const ImageF3& picture) {
-    ImageF1 out(picture.size());
-    for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x)
-            out.at(x, y) = luma_709(picture.pixel(x, y));
-    return out;
-}
-
-// A black frame says nothing for a scene, and nothing against it.
-bool shows_anything(const ImageF1& luma) {
-    constexpr float kDark = 8;  // code
-    const float* codes = luma.data();
-    const std::size_t count = luma.size_bytes() / sizeof(float);
-    return 2 * static_cast<std::size_t>(
-                   std::count_if(codes, codes + count, [](float code) { return code > kDark; })) >
-           count;
-}
 
 }  // namespace
 
@@ -73,7 +45,7 @@ RestingScene::RestingScene(ViewU8x3 key_frame, ViewF1 key_phi)
             static_cast<std::size_t>(scale_.size.height)) {
     constexpr int kLeastSide = 32;
     rests_ = std::min(scale_.size.width, scale_.size.height) >= kLeastSide;
-    remember(key_phi);
+    see_places(key_phi);
     is_key_ = false;
 }
 
@@ -249,7 +221,6 @@ bool RestingScene::is_outside(Vec2i place) const {
 
 // 255 where the scene has another word than phi.
 Matte RestingScene::to_change(ViewF1 phi, const SurfacePalette& palette) const {
-    constexpr float kClear_px = 1;
     constexpr double kAlone = 0.01;  // of the keyframe's matte comes back far from the rest
     Matte out(scale_.size), returns(scale_.size), uncovered(scale_.size), beside(scale_.size);
     parallel_rows(out.height(), 16, [&](int y0, int y1) {
@@ -257,7 +228,7 @@ Matte RestingScene::to_change(ViewF1 phi, const SurfacePalette& palette) const {
             for (int x = 0; x < out.width(); ++x) {
                 const float inside_px = depth(phi, x, y);
                 if (inside_px > 0) beside.at(x, y) = static_cast<std::uint8_t>(Beside::kSurface);
-                if (std::abs(inside_px) < kClear_px) continue;
+                if (std::abs(inside_px) < 1) continue;
                 const Verdict verdict = judged(x, y, inside_px, palette);
                 if (verdict == Verdict::kLeaves) out.at(x, y) = 255;
                 if (verdict == Verdict::kReturns) returns.at(x, y) = 255;
@@ -348,9 +319,34 @@ Recti RestingScene::shown_places() const {
     return box.grown(1).intersected(rect_of(places_.size()));
 }
 
-void RestingScene::remember(ViewF1 phi) {
-    constexpr float kClear_px = 1.5f;
-    if (!rests_ || !fits_) return;
+std::vector<Matte> RestingScene::remember(ViewF1 phi, const SurfacePalette& palette) {
+    if (!rests_ || !fits_) {
+        past_.forget();
+        return {};
+    }
+    see_places(phi);
+    return found_late(phi, palette);
+}
+
+std::vector<Matte> RestingScene::found_late(ViewF1 phi, const SurfacePalette& palette) {
+    SceneView view{key_from_cur_, ImageF3(scale_.size), Matte(scale_.size), Matte(scale_.size)};
+    parallel_rows(scale_.size.height, 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < scale_.size.width; ++x) {
+                const Vec3 color = unlit(x, y);
+                std::copy_n(&color.x, 3, view.colors.pixel(x, y));
+                const float inside_px = depth(phi, x, y);
+                if (inside_px > 0) view.inside.at(x, y) = 255;
+                const bool sure = inside_px > 0 && is_there(x, y) && !passes(x, y) &&
+                                  seen_[index_of(x, y)].frames >= kKnown && odds(palette, x, y) > 0;
+                if (sure) view.sure.at(x, y) = 255;
+            }
+        }
+    });
+    return past_.advance(std::move(view), scale_, kMatches * noise_levels_);
+}
+
+void RestingScene::see_places(ViewF1 phi) {
     const glm::dmat3 cur_from_key = glm::inverse(key_from_cur_);
     const Recti shown = shown_places();
     parallel_rows(shown.height(), 16, [&](int y0, int y1) {

@@ -10,6 +10,7 @@
 #include "engine/core/geometry.h"
 #include "engine/core/image.h"
 #include "engine/mask/scene_motion.h"
+#include "engine/mask/scene_past.h"
 #include "engine/mask/scene_places.h"
 #include "engine/mask/surface_palette.h"
 
@@ -32,8 +33,9 @@ class RestingScene {
     /// it. Empty if nothing is to be corrected. Parallel over rows; deterministic.
     [[nodiscard]] Matte corrected(ViewU8x3 frame, ViewF1 phi, const FlowField& prev_from_cur,
                                   const SurfacePalette& palette);
-    /// Remembers what the frame shows, with its final matte.
-    void remember(ViewF1 phi);
+    /// Remembers what the frame shows, with its final matte. Of the frames before it, the latest
+    /// first, 255 by blocks that are found to have been inside, too (ScenePast).
+    std::vector<Matte> remember(ViewF1 phi, const SurfacePalette& palette);
     /// The frame's pixels that are not 0 in `where` are known to be inside, or outside, as `inside`
     /// says.
     void correct(ViewU8x1 where, ViewU8x1 inside);
@@ -69,6 +71,8 @@ class RestingScene {
     [[nodiscard]] bool is_outside(Vec2i place) const;
     [[nodiscard]] Matte to_change(ViewF1 phi, const SurfacePalette& palette) const;
     [[nodiscard]] double leaving_blocks(const Matte& change, ViewF1 phi) const;
+    void see_places(ViewF1 phi);
+    [[nodiscard]] std::vector<Matte> found_late(ViewF1 phi, const SurfacePalette& palette);
     void move(const FlowField& prev_from_cur, ViewF1 phi);
     void stay_on_place(ViewF1 phi, const ImageF1& luma);
     void compare();
@@ -78,6 +82,7 @@ class RestingScene {
     SceneScale scale_;  // the pictures below are by blocks
     double key_area_px_;
     ScenePlaces places_;
+    ScenePast past_ = {};
     ImageF3 now_;             // the frame
     ImageF1 gain_;            // how much brighter it is than the keyframe
     Matte moving_;            // what moves otherwise than the scene

@@ -12,6 +12,9 @@ namespace weft {
 /// `limit_px`, and the matte of it. What is as it was keeps its edge to a fraction of a pixel.
 void take_over(const Matte& inside, float limit_px, ImageF1& distance, Matte& matte);
 
+/// Adds to a matte what is 255 in `pieces`, a smaller picture of its shape.
+void add_pieces(const Matte& pieces, Matte& matte);
+
 /// 255 where `distance` is inside and `pieces` is 0; both of one size.
 [[nodiscard]] Matte inside_without(ViewF1 distance, const Matte& pieces);
 

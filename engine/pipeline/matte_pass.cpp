@@ -237,6 +237,18 @@ Status put(AnalysisStore& store, const Job& job, int frame, AnalysisKind kind,
                                         std::move(estimate.followed)}));
 }
 
+// What the walk has just found of earlier frames; it ends at frame `end`.
+void complete_earlier(Job& job, int frame, int step, int end) {
+    if (job.walker) job.pending.complete(frame, step, job.walker->take_late());
+    if (frame == end) job.walker.reset();
+}
+
+Status put_pending(AnalysisStore& store, Job& job, int frame, int end) {
+    for (PendingMatte& done : job.pending.take(frame, frame == end))
+        WEFT_CHECK_OK(put(store, job, done.frame, done.kind, std::move(done.estimate)));
+    return {};
+}
+
 Status visit_forward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
                      const MatteStop& at) {
     for (Job& job : jobs) {
@@ -246,16 +258,19 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
         Matte smaller;
         const Matte& walked_front = at.reduce(front, smaller);
         WEFT_TRY(estimate, walk(context, job, within, within.first, at, walked_front));
-        if (at.frame == within.last) job.walker.reset();
-        if (!job.reach.covers(at.frame, job.keys)) continue;
-        // What is merged on the way back stays as it was found.
-        if (job.merged(at.frame)) {
-            WEFT_CHECK_OK(
-                put(store, job, at.frame, AnalysisKind::kMatteForward, std::move(estimate)));
-            continue;
+        complete_earlier(job, at.frame, 1, within.last);
+        if (job.reach.covers(at.frame, job.keys)) {
+            const bool open = !job.is_key(at.frame) && !job.is_confirmed(at.frame);
+            // What is merged on the way back stays as it was found.
+            const bool merged = job.merged(at.frame);
+            if (!merged) {
+                WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
+                estimate = std::move(found);
+            }
+            job.pending.add({at.frame, merged ? AnalysisKind::kMatteForward : AnalysisKind::kMatte,
+                             std::move(estimate), open});
         }
-        WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
-        WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte, std::move(found)));
+        WEFT_CHECK_OK(put_pending(store, job, at.frame, within.last));
     }
     return {};
 }
@@ -287,17 +302,22 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         Matte smaller;
         const Matte& walked_front = at.reduce(front, smaller);
         WEFT_TRY(estimate, walk(context, job, within, within.last, at, walked_front));
-        if (at.frame == within.first) job.walker.reset();
-        if (job.is_key(at.frame) || !job.reach.covers(at.frame, job.keys)) continue;
-        if (job.merged(at.frame)) {
-            WEFT_TRY(forward, found_forward(store, job, at.frame));
-            if (is_not_there(estimate))
-                estimate = std::move(forward);
-            else if (!is_not_there(forward))
-                estimate = merged(forward, estimate, job, at, walked_front);
+        complete_earlier(job, at.frame, -1, within.first);
+        if (!job.is_key(at.frame) && job.reach.covers(at.frame, job.keys)) {
+            const bool merges = job.merged(at.frame);
+            if (merges) {
+                WEFT_TRY(forward, found_forward(store, job, at.frame));
+                if (is_not_there(estimate))
+                    estimate = std::move(forward);
+                else if (!is_not_there(forward))
+                    estimate = merged(forward, estimate, job, at, walked_front);
+            }
+            WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
+            // A merged matte weighs what both walks know; one of them alone does not change it.
+            job.pending.add({at.frame, AnalysisKind::kMatte, std::move(found),
+                             !merges && !job.is_confirmed(at.frame)});
         }
-        WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
-        WEFT_CHECK_OK(put(store, job, at.frame, AnalysisKind::kMatte, std::move(found)));
+        WEFT_CHECK_OK(put_pending(store, job, at.frame, within.first));
     }
     return {};
 }

@@ -8,6 +8,7 @@
 #include "engine/mask/matte_propagation.h"
 #include "engine/mask/matte_reach.h"
 #include "engine/motion/scene_watch.h"
+#include "engine/pipeline/pending_mattes.h"
 #include "engine/pipeline/region_mattes.h"
 #include "engine/pipeline/region_plan.h"
 
@@ -24,6 +25,7 @@ struct MatteStretch {
     MatteOptions options;
     std::optional<MatteWalker> walker = {};  ///< Of the walk that goes on.
     SceneWatch scene = {};                   ///< Of the same walk.
+    PendingMattes pending = {};              ///< Of it, too.
 
     static constexpr FrameSpan kNone{0, -1};
 
