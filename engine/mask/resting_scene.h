@@ -35,7 +35,7 @@ class RestingScene {
                                   const SurfacePalette& palette);
     /// Remembers what the frame shows, with its final matte. Of the frames before it, the latest
     /// first, 255 by blocks that are found to have been inside, too (ScenePast).
-    std::vector<Matte> remember(ViewF1 phi, const SurfacePalette& palette);
+    [[nodiscard]] std::vector<Matte> remember(ViewF1 phi, const SurfacePalette& palette);
     /// The frame's pixels that are not 0 in `where` are known to be inside, or outside, as `inside`
     /// says.
     void correct(ViewU8x1 where, ViewU8x1 inside);

@@ -126,7 +126,7 @@ Walk walk(const Room& room, int last, const Place& also, const Place& but) {
             ++out.corrected;
             out.last = corrected;
         }
-        scene.remember(distance_of(out.last));
+        static_cast<void>(scene.remember(distance_of(out.last), palette));
     }
     return out;
 }
