@@ -50,6 +50,8 @@ add_compile_options(
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # GCC 12 mistakes moved vectors inside an Expected for stack memory (GCC bug 104475 and kin).
     add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-free-nonheap-object>)
+    # The same of strings that are put together (GCC bug 105651), at -O3 only.
+    add_compile_options($<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-Wno-restrict>)
 endif()
 if(WEFT_WERROR)
     add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Werror>)
