@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "engine/motion/optical_flow.h"
@@ -135,6 +136,11 @@ class Pieces {
         : in_(in), inside_(inside), step_(step), plain_(plain_of(in.frame)) {
         area_ = cv::countNonZero(inside);
         colors_ = colors_of(in.frame, inside);
+        cv::Mat stats, centres;
+        const int count =
+            cv::connectedComponentsWithStats(inside & plain_, labels_, stats, centres, 4, CV_32S);
+        for (int k = 0; k < count; ++k)
+            sizes_.push_back(k == 0 ? 0 : stats.at<int>(k, cv::CC_STAT_AREA));
     }
 
     // The pieces of `side` that `wrong` holds for, with their rims of `rim` pixels; a piece has no
@@ -167,7 +173,7 @@ class Pieces {
     // Moves otherwise than the surface and has none of its colours.
     [[nodiscard]] bool passes_in_front(const cv::Mat& piece, const cv::Rect& box) const {
         constexpr float kDifferent = 3;  // times the usual miss
-        constexpr double kUnlike = 0.6, kRare = 0.15, kKnown = 0.4;
+        constexpr double kUnlike = 0.6, kKnown = 0.4;
         std::vector<float> off, misses;
         for (int y = 0; y < piece.rows; ++y) {
             for (int x = 0; x < piece.cols; ++x) {
@@ -180,22 +186,14 @@ class Pieces {
         if (static_cast<double>(off.size()) < kKnown * static_cast<double>(misses.size()) ||
             middle(off) < kOffPlane_px * in_.unit_px || middle(misses) < kDifferent * step_.usual)
             return false;
-        const Colors own = colors_of(in_.frame.crop({box.x, box.y, box.br().x, box.br().y}), piece);
-        const auto all = static_cast<double>(misses.size());
-        double unlike = 0;
-        for (std::size_t cell = 0; cell < own.size(); ++cell) {
-            const double elsewhere = (colors_[cell] - own[cell]) / std::max(1.0, area_ - all);
-            if (elsewhere < kRare * own[cell] / all) unlike += own[cell];
-        }
-        return unlike > kUnlike * all;
+        return unlike(piece, box, true) > kUnlike;
     }
 
     // Goes on from the surface, stays on its plane, and lies between it and what moves.
     [[nodiscard]] bool is_surface(const cv::Mat& piece, const cv::Rect& box) const {
-        constexpr double kStays = 0.6, kMoves = 0.6;
-        constexpr int kContact_px = 8, kBeside = 7;
-        const cv::Mat beyond = grown(inside_(box) & plain_(box), 3);
-        if (cv::countNonZero(piece & beyond) < kContact_px * in_.unit_px) return false;
+        constexpr double kStays = 0.6, kMoves = 0.6, kUnlike = 0.2;
+        constexpr int kBeside = 7;
+        if (!goes_on(piece, box) || unlike(piece, box, false) > kUnlike) return false;
         const cv::Mat stays = piece & (step_.misses(box) < 3 * step_.usual + 1);
         if (cv::countNonZero(stays) < kStays * cv::countNonZero(piece)) return false;
         const cv::Mat around = grown(piece, 2 * around_px() + 1) & ~grown(piece, kBeside) &
@@ -207,6 +205,34 @@ class Pieces {
     }
 
   private:
+    // Whether it is the smaller part of something plain that the painted boundary cuts: a smooth
+    // thing beside bricks is none of them.
+    [[nodiscard]] bool goes_on(const cv::Mat& piece, const cv::Rect& box) const {
+        constexpr int kContact_px = 8;
+        const cv::Mat beyond = inside_(box) & plain_(box);
+        if (cv::countNonZero(piece & grown(beyond, 3)) < kContact_px * in_.unit_px) return false;
+        const cv::Mat touched = beyond & grown(piece, 3);
+        std::set<int> parts;
+        for (int y = 0; y < touched.rows; ++y)
+            for (int x = 0; x < touched.cols; ++x)
+                if (touched.at<std::uint8_t>(y, x) != 0) parts.insert(labels_(box).at<int>(y, x));
+        int px = 0;
+        for (const int part : parts)
+            px += sizes_[static_cast<std::size_t>(part)];
+        return px > cv::countNonZero(piece);
+    }
+    // The share of its pixels whose colours are rare in the inside; `of_it`: it is a part of that.
+    [[nodiscard]] double unlike(const cv::Mat& piece, const cv::Rect& box, bool of_it) const {
+        constexpr double kRare = 0.15;
+        const Colors own = colors_of(in_.frame.crop({box.x, box.y, box.br().x, box.br().y}), piece);
+        const double all = cv::countNonZero(piece), others = of_it ? area_ - all : area_;
+        double rare = 0;
+        for (std::size_t cell = 0; cell < own.size(); ++cell) {
+            const double elsewhere = colors_[cell] - (of_it ? own[cell] : 0);
+            if (elsewhere / std::max(1.0, others) < kRare * own[cell] / all) rare += own[cell];
+        }
+        return rare / all;
+    }
     // How far what lies around a piece is looked at.
     [[nodiscard]] int around_px() const {
         return std::max(6, static_cast<int>(std::lround(12 * in_.unit_px)));
@@ -227,6 +253,8 @@ class Pieces {
     const cv::Mat& inside_;
     const PlaneStep& step_;
     cv::Mat plain_;
+    cv::Mat labels_;          // of the inside's pieces
+    std::vector<int> sizes_;  // px
     Colors colors_;
     double area_ = 0;
 };

@@ -369,6 +369,7 @@ void RestingScene::see_places(ViewF1 phi) {
 }
 
 void RestingScene::correct(ViewU8x1 where, ViewU8x1 inside) {
+    past_.forget();
     for (int y = 0; y < scale_.size.height; ++y) {
         for (int x = 0; x < scale_.size.width; ++x) {
             const Vec2i p = scale_.pixel(x, y), at = place_of(x, y);

@@ -37,7 +37,7 @@ class RestingScene {
     /// first, 255 by blocks that are found to have been inside, too (ScenePast).
     [[nodiscard]] std::vector<Matte> remember(ViewF1 phi, const SurfacePalette& palette);
     /// The frame's pixels that are not 0 in `where` are known to be inside, or outside, as `inside`
-    /// says.
+    /// says. What is found of earlier frames does not follow from that.
     void correct(ViewU8x1 where, ViewU8x1 inside);
 
   private:

@@ -243,8 +243,9 @@ void complete_earlier(Job& job, int frame, int step, int end) {
     if (frame == end) job.walker.reset();
 }
 
+// What is behind a holdout needs its mattes at once, so they are not completed later.
 Status put_pending(AnalysisStore& store, Job& job, int frame, int end) {
-    for (PendingMatte& done : job.pending.take(frame, frame == end))
+    for (PendingMatte& done : job.pending.take(frame, frame == end || job.in_front()))
         WEFT_CHECK_OK(put(store, job, done.frame, done.kind, std::move(done.estimate)));
     return {};
 }
