@@ -221,7 +221,8 @@ void put_png(const std::string& path, F&& extra) {
 TEST_F(FileColorTest, FilesWithAProfileOfTheOtherCurveAreReadByIt) {
     const std::string linear = grey_profile("GIMP built-in Linear sRGB", gamma_table({256}));
     const std::string display = grey_profile("GIMP built-in sRGB", gamma_table({563}));
-    const auto put = [&](const std::string& path, const std::string& profile, OIIO::TypeDesc type) {
+    const auto put = [&](const std::string& path, const std::string& profile,
+                         const OIIO::TypeDesc& type) {
         OIIO::ImageSpec spec(4, 4, 1, type);
         spec.attribute("ICCProfile",
                        OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())),
