@@ -24,20 +24,20 @@ std::optional<Vec2i> block_at(Vec2 place, const SceneScale& scale) {
     return Vec2i(b);
 }
 
-// How far a block's colour is from those of another picture at a block and beside it.
-float difference(const ImageF3& picture, Vec2i block, const ImageF3& other, Vec2i at) {
+// Whether a block's colour is, to `levels`, that of a block of another picture or of one beside it.
+bool is_near(const ImageF3& picture, Vec2i block, const ImageF3& other, Vec2i at, float levels) {
     const Vec3 color = color_at(picture, block.x, block.y);
-    float least = color_difference(color, color_at(other, at.x, at.y));
+    if (color_difference(color, color_at(other, at.x, at.y)) < levels) return true;
     for (int y = std::max(0, at.y - 1); y <= std::min(at.y + 1, other.height() - 1); ++y)
         for (int x = std::max(0, at.x - 1); x <= std::min(at.x + 1, other.width() - 1); ++x)
-            least = std::min(least, color_difference(color, color_at(other, x, y)));
-    return least;
+            if (color_difference(color, color_at(other, x, y)) < levels) return true;
+    return false;
 }
 
 // Steps between frames are right to about a block; but a thin thing that only one of both shows is
 // a difference.
 bool shows_the_same(const ImageF3& a, Vec2i in_a, const ImageF3& b, Vec2i in_b, float levels) {
-    return difference(a, in_a, b, in_b) < levels && difference(b, in_b, a, in_a) < levels;
+    return is_near(a, in_a, b, in_b, levels) && is_near(b, in_b, a, in_a, levels);
 }
 
 // Pieces that reach nowhere far from what was found go: there the boundary has been found better
@@ -85,7 +85,7 @@ std::vector<Matte> ScenePast::advance(SceneView now, const SceneScale& scale, fl
         // With what has been found so before.
         missing = either_of(then.late, missing);
         keep_deep(missing, then.inside);
-        late.push_back(missing);
+        late.push_back(missing == then.late ? Matte() : missing);
         then.late = std::move(missing);
     }
     views_.push_front(std::move(now));

@@ -28,7 +28,8 @@ class ScenePast {
 
     /// Goes on to the next frame. Of the frames before it, the latest first, 255 by blocks that
     /// were outside though they and all frames since showed what is sure now, in colours that
-    /// differ by less than `same_levels`; strips along the boundary are left out. Deterministic.
+    /// differ by less than `same_levels`; strips along the boundary are left out. Empty where that
+    /// is not more than it was. Deterministic.
     [[nodiscard]] std::vector<Matte> advance(SceneView now, const SceneScale& scale,
                                              float same_levels);
     /// Nothing is known of the frames before.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/core/geometry.h"
+#include "engine/mask/matte_box.h"
 #include "engine/mask/signed_distance.h"
 
 namespace weft {
@@ -32,33 +34,35 @@ void take_over(const Matte& inside, float limit_px, ImageF1& distance, Matte& ma
 }
 
 void add_pieces(const Matte& pieces, Matte& matte) {
-    const int w = matte.width(), h = matte.height();
-    const auto joins = [&](int x, int y) {
-        return pieces.at(x * pieces.width() / w, y * pieces.height() / h) != 0;
-    };
-    cv::Mat inside(h, w, CV_32F), near(h, w, CV_8U, cv::Scalar(0));
-    for (int y = 0; y < h; ++y) {
-        for (int x = 0; x < w; ++x) {
-            const bool piece = joins(x, y);
-            inside.at<float>(y, x) = piece ? 1.0f : static_cast<float>(matte.at(x, y)) / 255;
-            if (piece) near.at<std::uint8_t>(y, x) = 255;
+    const Recti bounds = pieces.empty() ? Recti() : matte_box(pieces, 1);
+    if (bounds.empty()) return;
+    const int w = matte.width(), h = matte.height(), pw = pieces.width(), ph = pieces.height();
+    const int block = std::max(1, (w + pw / 2) / pw), side = 2 * block + 1;
+    const Recti box = Recti{bounds.x0 * w / pw, bounds.y0 * h / ph, (bounds.x1 * w + pw - 1) / pw,
+                            (bounds.y1 * h + ph - 1) / ph}
+                          .grown(2 * side)
+                          .intersected(rect_of(matte.size()));
+    cv::Mat inside(box.height(), box.width(), CV_32F), near(inside.size(), CV_8U, cv::Scalar(0));
+    for (int y = 0; y < inside.rows; ++y) {
+        for (int x = 0; x < inside.cols; ++x) {
+            const Vec2i at(box.x0 + x, box.y0 + y);
+            const bool joins = pieces.at(at.x * pw / w, at.y * ph / h) != 0;
+            inside.at<float>(y, x) = joins ? 1.0f : static_cast<float>(matte.at(at.x, at.y)) / 255;
+            if (joins) near.at<std::uint8_t>(y, x) = 255;
         }
     }
-    if (cv::countNonZero(near) == 0) return;
     // The steps of its blocks are smoothed, to an edge of two pixels.
-    const int block = std::max(1, (w + pieces.width() / 2) / pieces.width());
-    const int side = 2 * block + 1;
     cv::blur(inside, inside, {side, side});
     cv::blur(inside, inside, {side, side});
     cv::dilate(near, near, cv::Mat::ones(side, side, CV_8U));
     const float steep = 0.75f * static_cast<float>(side);
-    for (int y = 0; y < h; ++y) {
-        for (int x = 0; x < w; ++x) {
+    for (int y = 0; y < inside.rows; ++y) {
+        for (int x = 0; x < inside.cols; ++x) {
             if (near.at<std::uint8_t>(y, x) == 0) continue;
             const float share =
                 std::clamp(0.5f + steep * (inside.at<float>(y, x) - 0.5f), 0.0f, 1.0f);
-            matte.at(x, y) =
-                std::max(matte.at(x, y), static_cast<std::uint8_t>(std::lround(255 * share)));
+            std::uint8_t& code = matte.at(box.x0 + x, box.y0 + y);
+            code = std::max(code, static_cast<std::uint8_t>(std::lround(255 * share)));
         }
     }
 }
