@@ -337,8 +337,11 @@ std::vector<Matte> RestingScene::found_late(ViewF1 phi, const SurfacePalette& pa
                 std::copy_n(&color.x, 3, view.colors.pixel(x, y));
                 const float inside_px = depth(phi, x, y);
                 if (inside_px > 0) view.inside.at(x, y) = 255;
+                // What was given back for some frames only, wrongly, is not given back on more.
+                const Seen& seen = seen_[index_of(x, y)];
                 const bool sure = inside_px > 0 && is_there(x, y) && !passes(x, y) &&
-                                  seen_[index_of(x, y)].frames >= kKnown && odds(palette, x, y) > 0;
+                                  seen.frames >= kSure && seen.inside > 0.5f &&
+                                  odds(palette, x, y) > 0;
                 if (sure) view.sure.at(x, y) = 255;
             }
         }

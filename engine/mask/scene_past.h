@@ -24,7 +24,7 @@ struct SceneView {
 /// Not thread-safe.
 class ScenePast {
   public:
-    static constexpr std::size_t kFrames = 6;
+    static constexpr std::size_t kFrames = 8;
 
     /// Goes on to the next frame. Of the frames before it, the latest first, 255 by blocks that
     /// were outside though they and all frames since showed what is sure now, in colours that

@@ -37,17 +37,27 @@ SceneView view_of(int frame, int width) {
     return view;
 }
 
-TEST(ScenePast, WhatIsUncoveredIsTheSurfaceFromTheFirstFrameThatShowsIt) {
+constexpr int kLastFrame = 8;
+
+// What is found of each frame by the last one.
+std::vector<Matte> found_late(int width) {
     ScenePast past;
-    std::vector<Matte> late;
-    constexpr int kLastFrame = 8;
-    for (int frame = 0; frame <= kLastFrame; ++frame)
-        late = past.advance(view_of(frame, kBoxWidth), scale_of_past(), 8);
-    ASSERT_EQ(late.size(), ScenePast::kFrames);
+    std::vector<Matte> of_frame(kLastFrame);
+    for (int frame = 0; frame <= kLastFrame; ++frame) {
+        auto late = past.advance(view_of(frame, width), scale_of_past(), 8);
+        for (std::size_t k = 0; k < late.size(); ++k)
+            if (!late[k].empty())
+                of_frame[static_cast<std::size_t>(frame) - 1 - k] = std::move(late[k]);
+    }
+    return of_frame;
+}
+
+TEST(ScenePast, WhatIsUncoveredIsTheSurfaceFromTheFirstFrameThatShowsIt) {
+    const std::vector<Matte> late = found_late(kBoxWidth);
     const int sure_to = left_of_box(kLastFrame - kLaterBy);  // on the last frame
-    for (int back = 1; back <= static_cast<int>(late.size()); ++back) {
-        const int frame = kLastFrame - back;
-        const Matte& then = late[static_cast<std::size_t>(back - 1)];
+    for (int frame = 0; frame < kLastFrame; ++frame) {
+        const Matte& then = late[static_cast<std::size_t>(frame)];
+        ASSERT_FALSE(then.empty()) << frame;
         for (int x = 0; x < then.width(); ++x) {
             const bool missed = x >= left_of_box(frame - kLaterBy) && x < left_of_box(frame);
             if (x == sure_to || x == left_of_box(frame)) continue;
@@ -57,14 +67,12 @@ TEST(ScenePast, WhatIsUncoveredIsTheSurfaceFromTheFirstFrameThatShowsIt) {
 }
 
 TEST(ScenePast, AThinThingThatPassesIsNotPaintedOver) {
-    ScenePast past;
-    std::vector<Matte> late;
-    for (int frame = 0; frame <= 8; ++frame)
-        late = past.advance(view_of(frame, 2), scale_of_past(), 8);
-    for (std::size_t k = 0; k < late.size(); ++k) {
-        const int frame = 7 - static_cast<int>(k);
-        EXPECT_EQ(late[k].at(left_of_box(frame), 60), 0) << frame;
-        EXPECT_EQ(late[k].at(left_of_box(frame) + 1, 60), 0) << frame;
+    const std::vector<Matte> late = found_late(2);
+    for (int frame = 0; frame < kLastFrame; ++frame) {
+        const Matte& then = late[static_cast<std::size_t>(frame)];
+        ASSERT_FALSE(then.empty()) << frame;
+        EXPECT_EQ(then.at(left_of_box(frame), 60), 0) << frame;
+        EXPECT_EQ(then.at(left_of_box(frame) + 1, 60), 0) << frame;
     }
 }
 
