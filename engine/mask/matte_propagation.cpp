@@ -337,9 +337,10 @@ void MatteWalker::begin_again(ViewU8x3 next, const FlowField& measured) {
 }
 
 MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, ViewU8x1 in_front) {
-    if (std::exchange(state_->at_key, false) && in_front.empty()) begin_again(frame, measured);
-    State& s = *state_;
     const Matte covered = hidden_part(in_front);
+    const bool hides = !covered.empty() || !state_->key_seen.empty();
+    if (std::exchange(state_->at_key, false) && !hides) begin_again(frame, measured);
+    State& s = *state_;
     const FlowField behind =
         covered.empty() ? FlowField() : motion_behind(measured, covered, s.phi, s.scale.band_px);
     const FlowField& prev_from_cur = covered.empty() ? measured : behind;

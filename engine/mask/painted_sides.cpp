@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kEdge_levels = 14;   // across three pixels; stripes of a wallpaper have 10
 constexpr float kLeastPiece = 90;  // px of 854×480
-constexpr double kOneplane = 0.7;  // of the surface's motion; beside what moves it is mixed
+constexpr double kOnePlane = 0.7;  // of the surface's motion; beside what moves it is mixed
 constexpr float kOnPlane_px = 1, kOffPlane_px = 2.5f;
 constexpr double kMostOut = 0.1, kMostIn = 0.05;  // of the matte
 
@@ -29,6 +29,12 @@ struct PlaneStep {
     cv::Mat misses;   // CV_32F: what the plane leads to looks different by, codes
     float usual = 0;  // miss inside
 };
+
+float middle(std::vector<float>& values) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
 
 cv::Mat inside_mask(ViewU8x1 key) {
     return as_mat(key) > 127;
@@ -58,7 +64,7 @@ std::optional<glm::dmat3> plane_of(const PaintedInput& in, const cv::Mat& inside
     const auto on = std::count_if(pairs.begin(), pairs.end(), [&](const PlacePair& pair) {
         return glm::length(mapped(plane, pair.from) - pair.to) < kOnPlane_px * in.unit_px;
     });
-    if (static_cast<double>(on) < kOneplane * static_cast<double>(pairs.size()))
+    if (static_cast<double>(on) < kOnePlane * static_cast<double>(pairs.size()))
         return std::nullopt;
     return plane;
 }
@@ -86,9 +92,7 @@ PlaneStep step_of(const PaintedInput& in, const glm::dmat3& plane, const cv::Mat
     for (int y = 0; y < inside.rows; y += 2)
         for (int x = 0; x < inside.cols; x += 2)
             if (inside.at<std::uint8_t>(y, x) != 0) misses.push_back(out.misses.at<float>(y, x));
-    const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
-    std::nth_element(misses.begin(), middle, misses.end());
-    out.usual = *middle;
+    out.usual = middle(misses);
     return out;
 }
 
@@ -242,11 +246,6 @@ class Pieces {
         cv::Mat core;
         cv::erode(piece, core, cv::Mat::ones(5, 5, CV_8U));
         return cv::countNonZero(core) > 0;
-    }
-    static float middle(std::vector<float>& values) {
-        const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), at, values.end());
-        return *at;
     }
 
     const PaintedInput& in_;

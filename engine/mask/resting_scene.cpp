@@ -221,6 +221,7 @@ bool RestingScene::is_outside(Vec2i place) const {
 
 // 255 where the scene has another word than phi.
 Matte RestingScene::to_change(ViewF1 phi, const SurfacePalette& palette) const {
+    constexpr float kBoundary_px = 1;
     constexpr double kAlone = 0.01;  // of the keyframe's matte comes back far from the rest
     Matte out(scale_.size), returns(scale_.size), uncovered(scale_.size), beside(scale_.size);
     parallel_rows(out.height(), 16, [&](int y0, int y1) {
@@ -228,7 +229,7 @@ Matte RestingScene::to_change(ViewF1 phi, const SurfacePalette& palette) const {
             for (int x = 0; x < out.width(); ++x) {
                 const float inside_px = depth(phi, x, y);
                 if (inside_px > 0) beside.at(x, y) = static_cast<std::uint8_t>(Beside::kSurface);
-                if (std::abs(inside_px) < 1) continue;
+                if (std::abs(inside_px) < kBoundary_px) continue;
                 const Verdict verdict = judged(x, y, inside_px, palette);
                 if (verdict == Verdict::kLeaves) out.at(x, y) = 255;
                 if (verdict == Verdict::kReturns) returns.at(x, y) = 255;

@@ -45,8 +45,7 @@ class RecentMotions {
     }
 
   private:
-    static constexpr std::size_t kMost =
-        14;  // by as many frames the sweeps are apart, and read ahead
+    static constexpr std::size_t kMost = 14;  // frames that the sweeps are apart and read ahead
     struct Kept {
         int cur, prev;
         std::shared_ptr<const FrameMotion> motion;

@@ -11,9 +11,9 @@
 namespace weft {
 
 /// Two faces of one store. Whoever asks the taker's for a matte that is not there yet waits for it;
-/// the maker's holds the maker back while frames that nobody has asked for are kMostAhead, so that
-/// both find pictures and motion in their caches. The maker never waits while a taker does.
-/// Thread-safe.
+/// the maker's holds the maker back while more than kMostAhead of its frames have not been asked
+/// for, so that both find pictures and motion in their caches. The maker never waits while a taker
+/// does. Thread-safe.
 class MatteFeed {
   public:
     static constexpr int kMostAhead = 2;  ///< Frames.

@@ -240,9 +240,10 @@ struct RegionPlan {
 
 /// Settings of the whole shot.
 struct ShotPlan {
-    std::vector<int> frames;  ///< To be rendered, ascending.
-    /// Of light and of sampling. A draft and its final share mattes and tracks as far as they may.
-    FlowQuality quality = FlowQuality::kFinal;
+    std::vector<int> frames;                    ///< To be rendered, ascending.
+    FlowQuality quality = FlowQuality::kFinal;  ///< Of light, gloss and sampling.
+    /// Of mattes and tracks; draft only for what is provisional. So a draft and its final share the
+    /// propagated mattes.
     FlowQuality motion_quality = FlowQuality::kFinal;
     std::uint64_t seed = 1;
     bool display_referred = true;  ///< The output rolls off above 1.

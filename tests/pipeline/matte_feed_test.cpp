@@ -40,6 +40,8 @@ TEST(MatteFeed, TheMakerIsHeldBackUntilItsMattesAreAskedFor) {
             expect_ok(feed.maker().put(matte_on(frame), {1}));
         feed.end({});
     });
+    while (made < MatteFeed::kMostAhead)
+        std::this_thread::sleep_for(1ms);
     EXPECT_EQ(making.wait_for(50ms), std::future_status::timeout);
     EXPECT_EQ(made, MatteFeed::kMostAhead);
     // What lies far ahead is waited for, so the maker goes on to it.
