@@ -54,6 +54,8 @@ const char* kind_name(AnalysisKind kind) {
     switch (kind) {
         case AnalysisKind::kMatteForward:
             return "matte-forward";
+        case AnalysisKind::kMatteBackward:
+            return "matte-backward";
         case AnalysisKind::kMatte:
             return "matte";
         case AnalysisKind::kCoords:

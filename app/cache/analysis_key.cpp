@@ -15,7 +15,7 @@ namespace weft {
 namespace {
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 54;
+constexpr int kAnalysisVersion = 55;
 constexpr int kFormVersion = 9;   // of the form alone
 constexpr int kFocusVersion = 2;  // of the focus alone
 
@@ -311,7 +311,9 @@ const std::string& RegionKeys::of(const AnalysisKey& key) const {
     if (key.kind == AnalysisKind::kForm) return form;
     if (key.kind == AnalysisKind::kFocus) return focus;
     if (key.kind == AnalysisKind::kCoords && is_zone_layer(key.layer)) return around.at(key.layer);
-    const bool matte = key.kind == AnalysisKind::kMatte || key.kind == AnalysisKind::kMatteForward;
+    const bool matte = key.kind == AnalysisKind::kMatte ||
+                       key.kind == AnalysisKind::kMatteForward ||
+                       key.kind == AnalysisKind::kMatteBackward;
     const auto layer = matte ? mattes.find(key.layer) : mattes.end();
     return layer == mattes.end() ? surface : layer->second.at(key.frame);
 }

@@ -8,21 +8,27 @@
 namespace weft {
 namespace {
 
-// Microseconds per pixel of whole frames on two cores, measured on the demo (three regions, two
-// with true motion) and davis_blackswan (one region, painted matte, estimated motion) at both
-// qualities.
+// Microseconds per pixel of whole frames on two cores, measured on six shots of film at both
+// qualities (docs/BENCHMARKS.md). A draft follows surfaces by the final's motion and mattes, so it
+// saves only where it renders.
 struct Costs {
     double motion, matte, region, render;
 };
-constexpr Costs kDraft{0.10, 0.05, 0.18, 0.16}, kFinal{0.60, 0.60, 0.30, 0.30};
+constexpr Costs kDraft{0.42, 0.40, 0.22, 0.22}, kFinal{0.48, 0.42, 0.28, 0.28};
 constexpr double kStart_s = 1.5;
 // Memory of a region's planes and their synthesis; final quality needs larger motion pyramids.
 constexpr std::int64_t kRegionBytes = 90ll << 20, kFinalBytes = 130ll << 20;
+// Painted mattes are propagated beside the surfaces that follow them.
+constexpr std::int64_t kPaintedBytes = 60ll << 20, kPaintedBytesPerPixel = 60;
 // Speed-up is less than proportional to cores, because tracks are computed in order.
 constexpr double kScaling = 0.75, kMeasuredOn = 2;
 
 // Disk space of all layers.
 constexpr double kWrittenLayersBytesPerPixel = 8;
+
+std::int64_t painted_bytes(Size size) {
+    return kPaintedBytes + kPaintedBytesPerPixel * size.width * size.height;
+}
 
 double bytes_per_pixel(std::string_view extension) {
     if (extension == "exr") return 7.5;
@@ -78,7 +84,8 @@ RenderEstimate estimate_render(const EstimateInputs& in) {
     out.memory_bytes =
         render_memory_bytes(in.size, std::min<std::size_t>(in.threads, in.frames), in.layers) +
         kRegionBytes * static_cast<std::int64_t>(in.regions) +
-        (in.quality == Quality::kFinal ? kFinalBytes : 0);
+        (in.quality == Quality::kFinal ? kFinalBytes : 0) +
+        (in.mattes_painted ? painted_bytes(in.size) : 0);
     out.disk_bytes = static_cast<std::int64_t>(
         static_cast<double>(in.frames) * pixels *
         (bytes_per_pixel(in.extension) + (in.layers ? kWrittenLayersBytesPerPixel : 0)));

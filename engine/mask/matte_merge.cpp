@@ -17,6 +17,9 @@ namespace {
 constexpr float kAgreedOdds = 4;  // log odds where both estimates agree
 // The weight of a walk where it has not followed what it sees from its keyframe; elsewhere it is 1.
 constexpr float kGuessed = 0.03f;
+// A share of less than this, or of more than 1 less this, is a decision, which the picture does not
+// change; but two edges that are no farther apart are one that it places.
+constexpr float kDoubt = 0.4f, kDecidedOdds = 40, kOneEdge_px = 2;
 
 // Bounds of where either estimate is inside.
 Recti joint_bounds(ViewF1 before, ViewF1 after) {
@@ -27,6 +30,10 @@ Recti joint_bounds(ViewF1 before, ViewF1 after) {
         }
     }
     return box;
+}
+
+bool is_confirmed_in(const MatteEstimate& e, int x, int y) {
+    return !e.since.empty() && e.since.at(x, y) != kNeverConfirmed;
 }
 
 float known(float confidence) {
@@ -49,33 +56,22 @@ ImageF1 knowledge_of(const Matte& followed) {
     return known;
 }
 
-// The weight of the later estimate by pixel. What was confirmed is as certain as since then.
-ImageF1 shares_of(const MatteEstimate& from_before, const MatteEstimate& from_after,
-                  const MergePlace& place, Size size) {
-    ImageF1 shares = merge_positions(place, from_before.since, from_after.since, size);
-    const auto confidence = [](const MatteEstimate& e, int x, int y) {
-        const bool confirmed = !e.since.empty() && e.since.at(x, y) != kNeverConfirmed;
-        return known(confirmed ? e.since_confidence : e.confidence);
-    };
-    const ImageF1 before_known = knowledge_of(from_before.followed);
-    const ImageF1 after_known = knowledge_of(from_after.followed);
-    const bool told = !before_known.empty() && !after_known.empty();
-    for (int y = 0; y < size.height; ++y) {
-        for (int x = 0; x < size.width; ++x) {
-            const float position = shares.at(x, y);
-            // Squared: a walk with half the confidence is more than twice as likely to be wrong.
-            const float before = confidence(from_before, x, y);
-            const float after = confidence(from_after, x, y);
-            float before_weight = (1 - position) * before * before;
-            float after_weight = position * after * after;
-            if (told) {
-                before_weight *= before_known.at(x, y);
-                after_weight *= after_known.at(x, y);
-            }
-            shares.at(x, y) = after_weight / (before_weight + after_weight);
+// Where both walks know something and disagree, the one that is right has the weight, but for what
+// an artist has confirmed.
+void give_to_the_right(ImageF1& shares, ViewF1 inside, const MatteEstimate& before,
+                       const MatteEstimate& after) {
+    constexpr float kSure = 0.02f;
+    for (int y = 0; y < shares.height(); ++y) {
+        for (int x = 0; x < shares.width(); ++x) {
+            const bool a = before.matte.at(x, y) > 127, b = after.matte.at(x, y) > 127;
+            float& share = shares.at(x, y);
+            if (a == b || share <= 0 || share >= 1 || is_confirmed_in(before, x, y) ||
+                is_confirmed_in(after, x, y))
+                continue;
+            const float in = std::clamp(2 * inside.row(y)[x] - 0.5f, kSure, 1 - kSure);
+            share = b ? in : 1 - in;
         }
     }
-    return shares;
 }
 
 float mean_share(ViewF1 shares) {
@@ -85,9 +81,10 @@ float mean_share(ViewF1 shares) {
     return static_cast<float>(sum / (double{1} * shares.width() * shares.height()));
 }
 
-// Two estimates of a shape, combined over an area. `shares` are the later one's weights.
+// Two estimates of a shape, combined over an area. `shares` are the later one's weights; `decided`:
+// they say who is right.
 struct JointShape {
-    JointShape(ViewF1 before_phi, ViewF1 after_phi, ViewF1 shares, float band_px)
+    JointShape(ViewF1 before_phi, ViewF1 after_phi, ViewF1 shares, float band_px, bool decided)
         : before(before_phi),
           after(after_phi),
           expected(before.size()),
@@ -99,11 +96,16 @@ struct JointShape {
                 const float share = shares.row(y)[x];
                 const bool same = (a > 0) == (b > 0);
                 const float blend = a + share * (b - a);
-                // Where they disagree nothing is settled, even far from the blended boundary.
-                expected.row(y)[x] = same ? blend : std::clamp(blend, 1 - band_px, band_px - 1);
+                // Where they disagree and that is not decided nothing is settled, even far from the
+                // blended boundary.
+                const bool settled = !same && decided && std::abs(a - b) > kOneEdge_px &&
+                                     std::min(share, 1 - share) < kDoubt;
+                expected.row(y)[x] =
+                    same || settled ? blend : std::clamp(blend, 1 - band_px, band_px - 1);
                 agreed.row(y)[x] = !same ? 0 : (a > 0 ? std::min(a, b) : std::max(a, b));
-                side_odds.row(y)[x] = kAgreedOdds * ((1 - share) * std::clamp(a / 2, -1.0f, 1.0f) +
-                                                     share * std::clamp(b / 2, -1.0f, 1.0f));
+                side_odds.row(y)[x] = (settled ? kDecidedOdds : kAgreedOdds) *
+                                      ((1 - share) * std::clamp(a / 2, -1.0f, 1.0f) +
+                                       share * std::clamp(b / 2, -1.0f, 1.0f));
                 agreeing += same && a > 0 ? 1 : 0;
                 either += a > 0 || b > 0 ? 1 : 0;
             }
@@ -152,13 +154,42 @@ void keep_single(Matte& merged, const MatteEstimate& before, const MatteEstimate
 
 }  // namespace
 
+// What was confirmed is as certain as since then.
+ImageF1 merge_shares(const MatteEstimate& from_before, const MatteEstimate& from_after,
+                     const MergePlace& place, Size size) {
+    ImageF1 shares = merge_positions(place, from_before.since, from_after.since, size);
+    const auto confidence = [](const MatteEstimate& e, int x, int y) {
+        return known(is_confirmed_in(e, x, y) ? e.since_confidence : e.confidence);
+    };
+    const ImageF1 before_known = knowledge_of(from_before.followed);
+    const ImageF1 after_known = knowledge_of(from_after.followed);
+    const bool told = !before_known.empty() && !after_known.empty();
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const float position = shares.at(x, y);
+            // Squared: a walk with half the confidence is more than twice as likely to be wrong.
+            const float before = confidence(from_before, x, y);
+            const float after = confidence(from_after, x, y);
+            float before_weight = (1 - position) * before * before;
+            float after_weight = position * after * after;
+            if (told) {
+                before_weight *= before_known.at(x, y);
+                after_weight *= after_known.at(x, y);
+            }
+            shares.at(x, y) = after_weight / (before_weight + after_weight);
+        }
+    }
+    return shares;
+}
+
 MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstimate& from_after,
                               const MergePlace& place, ViewU8x3 frame, const MatteOptions& options,
-                              ViewU8x1 in_front) {
+                              ViewU8x1 in_front, ViewF1 inside) {
     const bool confirmed = !from_before.since.empty() || !from_after.since.empty();
     if (!confirmed && place.before && place.frame <= *place.before) return from_before;
     if (!confirmed && place.after && place.frame >= *place.after) return from_after;
-    const ImageF1 shares = shares_of(from_before, from_after, place, frame.size());
+    ImageF1 shares = merge_shares(from_before, from_after, place, frame.size());
+    if (!inside.empty()) give_to_the_right(shares, inside, from_before, from_after);
     const RefineScale scale(frame.size());
     const ImageF1 phi_before = signed_distance(inside_of(from_before.matte), scale.limit_px);
     const ImageF1 phi_after = signed_distance(inside_of(from_after.matte), scale.limit_px);
@@ -173,7 +204,7 @@ MatteEstimate merge_estimates(const MatteEstimate& from_before, const MatteEstim
     if (bounds.empty()) return merged;
 
     const JointShape joint(phi_before.view().crop(area), phi_after.view().crop(area), shares_here,
-                           scale.band_px);
+                           scale.band_px, !inside.empty());
     const ViewU8x3 part = frame.crop(area);
     std::vector<ColorWindow> windows = place_windows(joint.expected, scale.window_step_px);
     for (ColorWindow& w : windows)

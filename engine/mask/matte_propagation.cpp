@@ -208,8 +208,7 @@ Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, Vi
                 const float* k = key_from_cur.pixel(x, y);
                 softness.at(x, y) = sample_bilinear(key_softness, k[0], k[1]);
                 const float* d = prev_from_cur.pixel(x, y);
-                const Vec2i p = nearest_pixel({static_cast<float>(area.x0 + x) + d[0],
-                                               static_cast<float>(area.y0 + y) + d[1]});
+                const Vec2i p = nearest_pixel(Vec2(area.x0 + x, area.y0 + y) + Vec2(d[0], d[1]));
                 expected.at(x, y) = last.at(std::clamp(p.x, 0, last.width() - 1),
                                             std::clamp(p.y, 0, last.height() - 1));
             }
@@ -327,10 +326,13 @@ bool MatteWalker::has_soft_edges() const {
     return state_->soft_edges;
 }
 
-// The walk goes by what was meant, not by what was painted loosely.
-void MatteWalker::begin_again(ViewU8x3 next, const FlowField& measured) {
-    const State& s = *state_;
-    const Matte meant = painted_sides({s.frame, s.last, next, measured, s.unit_px()});
+// The walk goes by what was meant, not by what was painted loosely, as soon as something moves.
+void MatteWalker::begin_again(ViewU8x3 next, const FlowField& measured, bool hides) {
+    State& s = *state_;
+    if (!s.at_key || is_held(s.frame, next)) return;
+    s.at_key = false;
+    const Matte meant =
+        hides ? Matte() : painted_sides({s.frame, s.last, next, measured, s.unit_px()});
     if (meant.empty()) return;
     *this = MatteWalker(s.frame, meant, s.options);
     state_->at_key = false;
@@ -338,8 +340,7 @@ void MatteWalker::begin_again(ViewU8x3 next, const FlowField& measured) {
 
 MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, ViewU8x1 in_front) {
     const Matte covered = hidden_part(in_front);
-    const bool hides = !covered.empty() || !state_->key_seen.empty();
-    if (std::exchange(state_->at_key, false) && !hides) begin_again(frame, measured);
+    begin_again(frame, measured, !covered.empty() || !state_->key_seen.empty());
     State& s = *state_;
     const FlowField behind =
         covered.empty() ? FlowField() : motion_behind(measured, covered, s.phi, s.scale.band_px);

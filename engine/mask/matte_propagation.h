@@ -65,20 +65,27 @@ class MatteWalker {
     [[nodiscard]] bool has_soft_edges() const;
 
   private:
-    void begin_again(ViewU8x3 next, const FlowField& measured);
+    void begin_again(ViewU8x3 next, const FlowField& measured, bool hides);
 
     struct State;
     std::unique_ptr<State> state_;
 };
 
+/// The weight, 0–1 by pixel, of the estimate from the keyframe after: by the frame's place in time,
+/// by confidence, and by what each walk has followed all the way; 0 or 1 where one alone knows.
+[[nodiscard]] ImageF1 merge_shares(const MatteEstimate& from_before,
+                                   const MatteEstimate& from_after, const MergePlace& place,
+                                   Size size);
+
 /// Two estimates of one frame, from the keyframe before and the one after it, between which it lies
 /// at `place`. Where parts were confirmed on the way these count as well, and what only one walk
 /// knows of stays as that walk has it. What one walk has followed from its keyframe counts for
-/// more than what the other has seen appear. `in_front` as above.
+/// more than what the other has seen appear. Where they disagree, `inside` (0–1 by pixel; may be
+/// empty) says which is right (JointSides). `in_front` as above.
 [[nodiscard]] MatteEstimate merge_estimates(const MatteEstimate& from_before,
                                             const MatteEstimate& from_after,
                                             const MergePlace& place, ViewU8x3 frame,
                                             const MatteOptions& options = {},
-                                            ViewU8x1 in_front = {});
+                                            ViewU8x1 in_front = {}, ViewF1 inside = {});
 
 }  // namespace weft

@@ -21,12 +21,13 @@
 namespace weft {
 
 enum class AnalysisKind : std::uint8_t {
-    kMatteForward,  ///< Propagated from the keyframe before (only while the mattes are made).
-    kMatte,         ///< Propagated and merged, with its confidence.
-    kCoords,        ///< ref_from_cur
-    kCoordsOneWay,  ///< The same between two references, as tracked from one of them.
-    kTrackBefore,   ///< Between two references: as tracked from the one before,
-    kTrackAfter,    ///< and from the one after.
+    kMatteForward,   ///< Propagated from the keyframe before (only while the mattes are made),
+    kMatteBackward,  ///< and from the one after.
+    kMatte,          ///< Propagated and merged, with its confidence.
+    kCoords,         ///< ref_from_cur
+    kCoordsOneWay,   ///< The same between two references, as tracked from one of them.
+    kTrackBefore,    ///< Between two references: as tracked from the one before,
+    kTrackAfter,     ///< and from the one after.
     /// Between two references: the frame repeats the drawing of the frame before in time.
     kHeldBetween,
     kLightSample,  ///< The plate as the shading estimate sees it (only while light is estimated).
@@ -72,8 +73,8 @@ class MemoryAnalysisStore final : public AnalysisStore {
     std::map<AnalysisKey, Bytes> blobs_;
 };
 
-/// A propagated matte with its confidence, 0–1. What is kept for the walk back (kMatteForward) has
-/// the places that were confirmed and what was followed, too (MatteEstimate).
+/// A propagated matte with its confidence, 0–1. What is kept to be merged (kMatteForward,
+/// kMatteBackward) has the places that were confirmed and what was followed, too (MatteEstimate).
 struct StoredMatte {
     Matte matte;
     float confidence = 1;

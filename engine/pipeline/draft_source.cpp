@@ -78,7 +78,8 @@ Expected<Bytes> DraftStore::get(const AnalysisKey& key) const {
     if (factor_ == 1) return bytes;
     switch (key.kind) {
         case AnalysisKind::kMatte:
-        case AnalysisKind::kMatteForward: {
+        case AnalysisKind::kMatteForward:
+        case AnalysisKind::kMatteBackward: {
             WEFT_TRY(found, decode_matte(bytes));
             return encode(
                 StoredMatte{enlarged(found.matte, Vec2(static_cast<float>(factor_)), plate_),

@@ -7,10 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "engine/mask/plate_edge.h"
-#include "engine/motion/follow_size.h"
+#include "engine/pipeline/matte_join.h"
+#include "engine/pipeline/matte_stop.h"
 #include "engine/pipeline/matte_stretch.h"
-#include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_zones.h"
 
 namespace weft {
@@ -103,67 +102,6 @@ std::vector<std::vector<Job>> walks_of(std::vector<Job> jobs) {
 
 constexpr auto kAll = [](const Job&) { return true; };
 
-// The frames that the walks of all jobs visit; empty: none.
-FrameSpan walked(const std::vector<Job>& jobs, FrameSpan (Job::*of)() const) {
-    FrameSpan all = Job::kNone;
-    for (const Job& job : jobs) {
-        const FrameSpan one = (job.*of)();
-        if (one.first > one.last) continue;
-        const bool first = all.first > all.last;
-        all.first = first ? one.first : std::min(all.first, one.first);
-        all.last = first ? one.last : std::max(all.last, one.last);
-    }
-    return all;
-}
-
-Expected<Matte> key_of(const ShotSource& source, const Job& job, int frame) {
-    if (is_zone_layer(job.layer))
-        return source.zone_key(job.region, zone_of_layer(job.layer), frame);
-    return job.layer == 0 ? source.matte_key(job.region, frame)
-                          : source.holdout_key(job.region, job.layer - 1, frame);
-}
-
-// Whether the motion is lost everywhere, too: the picture of a fast pan is found again in places.
-bool is_cut(const SweepFrame& at) {
-    constexpr double kFound = 0.35;
-    if (!at.cut || !at.prev_from_cur) return false;
-    const Matte& valid = at.prev_from_cur->get().valid;
-    std::int64_t found = 0;
-    for (int y = 0; y < valid.height(); ++y)
-        found += std::count_if(valid.row(y), valid.row(y) + valid.width(),
-                               [](std::uint8_t v) { return v != 0; });
-    return static_cast<double>(found) < kFound * valid.width() * valid.height();
-}
-
-std::shared_ptr<const SceneFrame> scene_of(const SweepFrame& at) {
-    static const FlowField kNone;
-    return std::make_shared<const SceneFrame>(
-        scene_frame(at.views->followed(), at.prev_from_cur ? at.prev_from_cur->get() : kNone));
-}
-
-// What passes in front of a job's matte; empty: nothing does.
-Expected<Matte> in_front_of(const PassContext& context, const AnalysisStore& store, const Job& job,
-                            int frame) {
-    if (job.in_front()) return Matte();
-    return holdout_matte(context.source, context.plan, store, job.region, frame);
-}
-
-// A stop of the walks: picture and motion of matte_size().
-struct MatteStop {
-    int frame = 0;
-    const ImageU8x3& plate;   // of the plate's size
-    const ImageU8x3& walked;  // the same, or smaller
-    const FrameMotion* prev_from_cur = nullptr;
-    bool cut = false;  // a new scene begins with it
-    std::shared_ptr<const SceneFrame> scene = {};
-
-    // `matte` of the plate's size as it is walked, which is kept in `smaller` if it is reduced.
-    [[nodiscard]] const Matte& reduce(const Matte& matte, Matte& smaller) const {
-        if (matte.empty() || matte.size() == walked.size()) return matte;
-        return smaller = reduced(matte, walked.size());
-    }
-};
-
 // Begins a job's walk with a painted matte of the plate's size.
 void begin(Job& job, const MatteStop& at, const Matte& painted, const Matte& front) {
     Matte smaller;
@@ -171,16 +109,6 @@ void begin(Job& job, const MatteStop& at, const Matte& painted, const Matte& fro
     job.scene = SceneWatch();
     static_cast<void>(job.scene.still_shows(at.scene));
     job.options.soft_edges |= job.walker->has_soft_edges();
-}
-
-// Beyond a cut there is nothing to go on from: the surface may be anywhere in the new scene, and
-// most often it is not in it.
-MatteEstimate not_there(Size size) {
-    return {Matte(size), 0.0f};
-}
-
-bool is_not_there(const MatteEstimate& estimate) {
-    return estimate.confidence == 0 && matte_bounds(estimate.matte).empty();
 }
 
 // Where the scene has become another one without a clear cut the walk goes on, for what it finds
@@ -197,7 +125,8 @@ MatteEstimate advance(Job& job, const MatteStop& at, const Matte& front) {
 Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan within, int start,
                              const MatteStop& at, const Matte& front) {
     if (job.is_key(at.frame)) {
-        WEFT_TRY(key, key_of(context.source, job, at.frame));
+        WEFT_TRY(key, painted_matte(context.source, job, at.frame));
+        learn_key(job, at, key);
         if (length(within) > 1) begin(job, at, key, front);
         return MatteEstimate{std::move(key), 1.0f};
     }
@@ -217,26 +146,6 @@ Expected<MatteEstimate> walk(const PassContext& context, Job& job, FrameSpan wit
     return job.walker->confirm({at.reduce(part.matte, matte), at.reduce(part.area, area)});
 }
 
-// The matte of a frame from its estimate, at the plate's size and with what is confirmed.
-Expected<MatteEstimate> of_plate(const PassContext& context, MatteEstimate estimate, const Job& job,
-                                 const MatteStop& at, const Matte& front) {
-    if (estimate.matte.size() != at.plate.size())
-        estimate.matte = at_plate_size(estimate.matte, at.plate, front, job.options);
-    if (job.is_confirmed(at.frame)) {
-        WEFT_TRY(part, context.source.confirmed_part(job.region, job.layer, at.frame));
-        estimate.matte = with_confirmed(std::move(estimate.matte), part);
-    }
-    return MatteEstimate{std::move(estimate.matte), estimate.confidence};
-}
-
-Status put(AnalysisStore& store, const Job& job, int frame, AnalysisKind kind,
-           MatteEstimate estimate) {
-    return store.put({job.region, frame, kind, job.layer},
-                     encode(StoredMatte{std::move(estimate.matte), estimate.confidence,
-                                        std::move(estimate.since), estimate.since_confidence,
-                                        std::move(estimate.followed)}));
-}
-
 // What the walk has just found of earlier frames; it ends at frame `end`.
 void complete_earlier(Job& job, int frame, int step, int end) {
     if (job.walker) job.pending.complete(frame, step, job.walker->take_late());
@@ -246,7 +155,7 @@ void complete_earlier(Job& job, int frame, int step, int end) {
 // What is behind a holdout needs its mattes at once, so they are not completed later.
 Status put_pending(AnalysisStore& store, Job& job, int frame, int end) {
     for (PendingMatte& done : job.pending.take(frame, frame == end || job.in_front()))
-        WEFT_CHECK_OK(put(store, job, done.frame, done.kind, std::move(done.estimate)));
+        WEFT_CHECK_OK(put_estimate(store, job, done.frame, done.kind, std::move(done.estimate)));
     return {};
 }
 
@@ -276,27 +185,11 @@ Status visit_forward(const PassContext& context, AnalysisStore& store, std::vect
     return {};
 }
 
-// What the walk forwards has found.
-Expected<MatteEstimate> found_forward(const AnalysisStore& store, const Job& job, int frame) {
-    WEFT_TRY(bytes, store.get({job.region, frame, AnalysisKind::kMatteForward, job.layer}));
-    WEFT_TRY(stored, decode_matte(bytes));
-    return MatteEstimate{std::move(stored.matte), stored.confidence, std::move(stored.since),
-                         stored.since_confidence, std::move(stored.followed)};
-}
-
-// Two walks that have both lost their scene may agree by chance.
-MatteEstimate merged(const MatteEstimate& forward, const MatteEstimate& backward, const Job& job,
-                     const MatteStop& at, const Matte& front) {
-    MatteEstimate out =
-        merge_estimates(forward, backward, {at.frame, job.key_before(), job.key_after()}, at.walked,
-                        job.options, front);
-    if (forward.confidence == 0 && backward.confidence == 0) out.confidence = 0;
-    return out;
-}
-
 Status visit_backward(const PassContext& context, AnalysisStore& store, std::vector<Job>& jobs,
                       const MatteStop& at) {
     for (Job& job : jobs) {
+        if (!holds(job.collecting(), at.frame)) continue;
+        if (job.is_key(at.frame)) WEFT_CHECK_OK(collect_key(context, job, at));
         const FrameSpan within = job.backward();
         if (!holds(within, at.frame)) continue;
         WEFT_TRY(front, in_front_of(context, store, job, at.frame));
@@ -305,18 +198,13 @@ Status visit_backward(const PassContext& context, AnalysisStore& store, std::vec
         WEFT_TRY(estimate, walk(context, job, within, within.last, at, walked_front));
         complete_earlier(job, at.frame, -1, within.first);
         if (!job.is_key(at.frame) && job.reach.covers(at.frame, job.keys)) {
-            const bool merges = job.merged(at.frame);
-            if (merges) {
-                WEFT_TRY(forward, found_forward(store, job, at.frame));
-                if (is_not_there(estimate))
-                    estimate = std::move(forward);
-                else if (!is_not_there(forward))
-                    estimate = merged(forward, estimate, job, at, walked_front);
+            if (job.merged(at.frame)) {
+                WEFT_CHECK_OK(collect(store, job, at, std::move(estimate), walked_front));
+            } else {
+                WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
+                job.pending.add({at.frame, AnalysisKind::kMatte, std::move(found),
+                                 !job.is_confirmed(at.frame)});
             }
-            WEFT_TRY(found, of_plate(context, std::move(estimate), job, at, front));
-            // A merged matte weighs what both walks know; one of them alone does not change it.
-            job.pending.add({at.frame, AnalysisKind::kMatte, std::move(found),
-                             !merges && !job.is_confirmed(at.frame)});
         }
         WEFT_CHECK_OK(put_pending(store, job, at.frame, within.first));
     }
@@ -329,8 +217,8 @@ Status fill_the_rest(const PassContext& context, AnalysisStore& store,
     for (const Job& job : jobs) {
         for (int frame = job.own.first; frame <= job.own.last; ++frame) {
             if (job.reach.covers(frame, job.keys)) continue;
-            WEFT_CHECK_OK(
-                put(store, job, frame, AnalysisKind::kMatte, {Matte(context.source.size()), 1.0f}));
+            WEFT_CHECK_OK(put_estimate(store, job, frame, AnalysisKind::kMatte,
+                                       {Matte(context.source.size()), 1.0f}));
         }
     }
     return {};
@@ -340,22 +228,16 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
     using Visit =
         Status (*)(const PassContext&, AnalysisStore&, std::vector<Job>&, const MatteStop&);
     const auto walk_mattes = [&](const SweepOptions& options, Visit visit) {
-        return sweep(context, options, [&](const SweepFrame& at) -> Status {
-            const ImageU8x3& plate = at.views->display;
-            const Size size = matte_size(plate.size());
-            const ImageU8x3 smaller = size == plate.size() ? ImageU8x3() : reduced(plate, size);
-            const FrameMotion larger([&] { return resized(at.prev_from_cur->get(), size); });
-            const bool as_followed = at.views->followed().size() == size;
-            return visit(
-                context, store, jobs,
-                {at.frame, plate, smaller.empty() ? plate : smaller,
-                 as_followed ? at.prev_from_cur.get() : &larger, is_cut(at), scene_of(at)});
+        return sweep(context, options, [&](const SweepFrame& seen) -> Status {
+            return stop_at(seen,
+                           [&](const MatteStop& at) { return visit(context, store, jobs, at); });
         });
     };
-    const FrameSpan there = walked(jobs, &Job::forward), back = walked(jobs, &Job::backward);
+    const FrameSpan there = visited(jobs, &Job::forward), back = visited(jobs, &Job::collecting);
     if (length(there) > 0)
         WEFT_CHECK_OK(walk_mattes({there.first, there.last, true}, visit_forward));
     if (length(back) > 0) WEFT_CHECK_OK(walk_mattes({back.last, back.first, true}, visit_backward));
+    WEFT_CHECK_OK(join_walks(context, store, jobs));
     return fill_the_rest(context, store, jobs);
 }
 
@@ -370,7 +252,8 @@ Status propagate_all(const PassContext& context, AnalysisStore& store, std::vect
 int count_matte_steps(const ShotPlan& plan, const AnalysisStore& store) {
     int steps = 0;
     for (const std::vector<Job>& jobs : walks_of(jobs_of(plan, store, kAll)))
-        steps += length(walked(jobs, &Job::forward)) + length(walked(jobs, &Job::backward));
+        for (const auto of : {&Job::forward, &Job::collecting, &Job::merging})
+            steps += length(visited(jobs, of));
     return steps;
 }
 

@@ -35,6 +35,31 @@ FrameSpan MatteStretch::backward() const {
     return last && first < *last ? FrameSpan{first, *last} : kNone;
 }
 
+FrameSpan MatteStretch::merging() const {
+    const FrameSpan there = forward(), back = backward();
+    if (length(there) <= 0 || length(back) <= 0) return kNone;
+    const FrameSpan both{std::max(there.first, back.first), std::min(there.last, back.last)};
+    return length(both) > 0 ? both : kNone;
+}
+
+FrameSpan MatteStretch::collecting() const {
+    const FrameSpan back = backward();
+    if (length(merging()) == 0 || key_before() != back.first - 1) return back;
+    return {back.first - 1, back.last};
+}
+
+FrameSpan visited(const std::vector<MatteStretch>& jobs, FrameSpan (MatteStretch::*of)() const) {
+    FrameSpan all = MatteStretch::kNone;
+    for (const MatteStretch& job : jobs) {
+        const FrameSpan one = (job.*of)();
+        if (one.first > one.last) continue;
+        const bool first = all.first > all.last;
+        all.first = first ? one.first : std::min(all.first, one.first);
+        all.last = first ? one.last : std::max(all.last, one.last);
+    }
+    return all;
+}
+
 std::vector<MatteStretch> stretches(int region, int layer, const PaintedMatte& painted,
                                     FrameSpan span) {
     std::vector<MatteStretch> out;

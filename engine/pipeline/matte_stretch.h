@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/mask/joint_sides.h"
 #include "engine/mask/matte_propagation.h"
 #include "engine/mask/matte_reach.h"
 #include "engine/motion/scene_watch.h"
@@ -26,6 +27,7 @@ struct MatteStretch {
     std::optional<MatteWalker> walker = {};  ///< Of the walk that goes on.
     SceneWatch scene = {};                   ///< Of the same walk.
     PendingMattes pending = {};              ///< Of it, too.
+    JointSides joint = {};                   ///< Of both walks.
 
     static constexpr FrameSpan kNone{0, -1};
 
@@ -40,6 +42,10 @@ struct MatteStretch {
     [[nodiscard]] std::optional<int> key_after() const;
     /// Where two walks meet there are two estimates to merge.
     [[nodiscard]] bool merged(int frame) const;
+    /// The frames for which that holds; empty: none.
+    [[nodiscard]] FrameSpan merging() const;
+    /// The frames of the walk back, and the keyframe at which it ends where it meets the other.
+    [[nodiscard]] FrameSpan collecting() const;
     /// A holdout, which is in front of the region's other mattes.
     [[nodiscard]] bool in_front() const { return layer > 0; }
     /// All frames that it needs: its own, and its keyframes.
@@ -58,6 +64,10 @@ struct MatteStretch {
 [[nodiscard]] inline int length(FrameSpan span) {
     return span.last - span.first + 1;
 }
+
+/// The frames that `of` any of the stretches visit, from the first to the last; empty: none.
+[[nodiscard]] FrameSpan visited(const std::vector<MatteStretch>& jobs,
+                                FrameSpan (MatteStretch::*of)() const);
 
 /// The stretches of one painted matte over the frames of `span`.
 [[nodiscard]] std::vector<MatteStretch> stretches(int region, int layer,

@@ -134,5 +134,17 @@ TEST_F(PaintedSides, TheWalkGoesByThem) {
     EXPECT_EQ(estimate.matte.at(200, 100), 255);
 }
 
+TEST_F(PaintedSides, TheWalkGoesByThemAlsoAfterAHold) {
+    MatteWalker walker(frame(0), painted(on_painted_wall));
+    (void)walker.advance(frame(0), FlowField(kPaintedFrame));
+    const MatteEstimate estimate = walker.advance(frame(1), motion());
+    const Recti now = kSomebody.grown(-4);
+    int taken = 0;
+    for (int y = now.y0; y < now.y1; ++y)
+        for (int x = now.x0; x < now.x1; ++x)
+            taken += estimate.matte.at(x + kJumpStep.x, y + kJumpStep.y) > 127;
+    EXPECT_EQ(taken, 0);
+}
+
 }  // namespace
 }  // namespace weft

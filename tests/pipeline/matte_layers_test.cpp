@@ -96,7 +96,8 @@ TEST_F(Stretches, AStrokeLeavesWhatLiesBeyondItsNeighboursAsItIs) {
     for (int frame = kFirst; frame < 5; ++frame)
         expect_ok(after.put({0, frame, AnalysisKind::kMatte},
                             *before.get({0, frame, AnalysisKind::kMatte})));
-    EXPECT_EQ(count_matte_steps(plan_, after), 6 + 3) << "forwards from 5 to 10, back from 8 to 6";
+    EXPECT_EQ(count_matte_steps(plan_, after), 6 + 4 + 2)
+        << "forwards from 5 to 10, back from 8 to 5, and what is merged on 6 and 7";
     expect_ok(propagate(shot_, plan_, after));
     for (int frame = kFirst; frame <= kLast; ++frame)
         EXPECT_EQ(stored_matte(after, frame, 0), stored_matte(anew, frame, 0)) << frame;
@@ -148,7 +149,7 @@ TEST(PaintedHoldouts, HideTheMatteBehindInWhateverOrderBothAreMade) {
     };
     const std::vector<Keys> all{{{5}, {3}, 8 + 5},          // one walk there, one back
                                 {{5}, {8}, 3 + 8 + 6 + 5},  // the holdout's first
-                                {{2, 9}, {2, 6}, 9 + 6 + 9 + 9}};
+                                {{2, 9}, {2, 6}, 9 + 6 + 3 + 9 + 9 + 6}};  // and merged
     for (const auto& [matte, holdout, steps] : all) {
         const BothPainted shot(matte);
         const ShotPlan plan = both_painted(matte, holdout);

@@ -28,7 +28,7 @@ TEST(RenderEstimate, MoreWorkTakesLongerAndMoreCoresLess) {
     EXPECT_LT(with([](EstimateInputs& in) { in.analysed = 0; }), seconds / 2);
     EXPECT_GT(with([](EstimateInputs& in) { in.mattes_painted = true; }), seconds);
     EXPECT_LT(with([](EstimateInputs& in) { in.motion_given = true; }), seconds);
-    EXPECT_LT(with([](EstimateInputs& in) { in.quality = Quality::kDraft; }), seconds / 2);
+    EXPECT_LT(with([](EstimateInputs& in) { in.quality = Quality::kDraft; }), seconds);
     EXPECT_LT(with([](EstimateInputs& in) { in.threads = 8; }), seconds / 2);
     EXPECT_NEAR(with([](EstimateInputs& in) { in.speed = 2; }), seconds / 2, 1e-9);
 }
@@ -42,6 +42,19 @@ TEST(RenderEstimate, MemoryDoesNotGrowWithTheShotAndDiskDoes) {
     EXPECT_EQ(long_one.disk_bytes, 20 * once.disk_bytes);
     in.extension = "exr";
     EXPECT_GT(estimate_render(in).disk_bytes, long_one.disk_bytes);
+}
+
+// Both were measured on film (docs/BENCHMARKS.md): 32.5 s and 887 MB, 28.3 s as a draft.
+TEST(RenderEstimate, IsRightOnAPaintedShot) {
+    EstimateInputs in = clip();
+    in.size = {960, 540};
+    in.frames = in.analysed = 40;
+    in.mattes_painted = true;
+    const RenderEstimate final_one = estimate_render(in);
+    EXPECT_NEAR(final_one.seconds, 32.5, 5);
+    EXPECT_NEAR(static_cast<double>(final_one.memory_bytes), 887e6, 0.15 * 887e6);
+    in.quality = Quality::kDraft;
+    EXPECT_NEAR(estimate_render(in).seconds, 28.3, 5);
 }
 
 TEST(RenderEstimate, TheAnalysisReachesToReferencesAndPaintedMattes) {
