@@ -215,6 +215,11 @@ struct ScribbleSelect {
     bool here_only = false;
     bool operator==(const ScribbleSelect&) const = default;
 };
+/// Shows what a scribble would give, without making it; without lines inside, no more.
+struct TryScribble {
+    ScribbleSelect lines;
+    bool operator==(const TryScribble&) const = default;
+};
 /// The matte of this frame is what lies inside the shape.
 struct SetShape {
     RotoShape shape;
@@ -389,10 +394,10 @@ using Action = std::variant<
     OpenAny, Save, SaveAs, SaveVersion, AnswerSave, CollectProject, CancelCollect, RelinkFiles,
     CloseProject, Recover, TrustFolder, SelectRegion, SoloRegion, LockRegion, GoToFrame, StepFrames,
     StepKeyframe, Play, SetPlayMode, MarkRange, ShowOnionSkin, BeginStroke, ContinueStroke,
-    EndStroke, SelectMatteLayer, FillPolygon, FloodSelect, ScribbleSelect, SetShape, FollowShape,
-    DetachShape, ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere,
-    CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis,
-    ApplyTexture, ApplyTextures, UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay,
-    ShowStages, ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+    EndStroke, SelectMatteLayer, FillPolygon, FloodSelect, ScribbleSelect, TryScribble, SetShape,
+    FollowShape, DetachShape, ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte,
+    KeyMatteHere, CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine,
+    PauseAnalysis, ApplyTexture, ApplyTextures, UseLargerOriginal, PickCryptomatte, ShowLayer,
+    ShowOverlay, ShowStages, ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
 
 }  // namespace weft
