@@ -135,6 +135,7 @@ void Preview::Impl::analyse_loop() {
             shared->analysing_key = work->analysis;
         }
         round = {steps_to(*work, all), 0, Clock::now()};
+        if (round.total > 0) show_steps(*work, 0);
         if (!first.empty()) propagate_to(*work, first.front(), token);
         // Analyse the visible frame first, unless that is nearly all of the work.
         const int for_first = steps_to(*work, first), for_all = steps_to(*work, all);

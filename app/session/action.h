@@ -76,8 +76,7 @@ struct SaveAs {
 struct SaveVersion {
     bool operator==(const SaveVersion&) const = default;
 };
-/// Answers SessionView::save_question: whose values are saved where both changed the same; unset:
-/// nothing is saved.
+/// Answers SessionView::save_question: whose values are saved; unset: nothing is.
 struct AnswerSave {
     std::optional<MergeSide> wins;
     bool operator==(const AnswerSave&) const = default;
@@ -248,8 +247,7 @@ struct CopyKeyframe {
     bool operator==(const CopyKeyframe&) const = default;
 };
 /// Leaves the files of the selected region's matte and paints on from what they show here.
-/// Adds the Cryptomatte object at this plate pixel to what is painted (SelectMatteLayer), or takes
-/// it away.
+/// Adds the Cryptomatte object at this plate pixel to what is painted, or takes it away.
 struct PickCryptomatte {
     Vec2i at{0, 0};
     bool subtract = false;
@@ -298,8 +296,7 @@ struct ApplyTextures {
     std::vector<std::pair<RegionId, std::string>> textures;  ///< Region and path.
     bool operator==(const ApplyTextures&) const = default;
 };
-/// Takes the larger picture that the region's sample was cut from in its stead; its size on the
-/// plate stays.
+/// Takes the larger picture that the region's sample was cut from; the size on the plate stays.
 struct UseLargerOriginal {
     RegionId region = 0;
     bool operator==(const UseLargerOriginal&) const = default;

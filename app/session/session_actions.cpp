@@ -197,6 +197,7 @@ struct Session::Parts::Actor {
         const bool inside = added.index && *added.index < static_cast<int>(regions.size());
         s.selection_.region =
             inside ? regions[static_cast<std::size_t>(*added.index)]->id : regions.back()->id;
+        s.selection_.layer = 0;
     }
     void go_to(int frame) const {
         if (s.playback_.go_to(frame)) moved();

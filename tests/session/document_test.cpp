@@ -111,7 +111,9 @@ TEST_F(DocumentByItself, TheSelectionFollowsItsRegions) {
     EXPECT_EQ(selection.layer, 0);
     document_.undo();
     document_.undo();
+    selection.layer = -1;
     selection.follow(document_.project());
+    EXPECT_EQ(selection.layer, 0);
     EXPECT_EQ(selection.region, 0u);
     EXPECT_EQ(selection.of(document_.project()), nullptr);
 }

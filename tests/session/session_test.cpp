@@ -179,6 +179,26 @@ TEST_F(SessionByActions, AScribbleShowsItsMatteWhileItIsDrawn) {
     EXPECT_FALSE(shown()) << "nothing is left of what was tried before";
 }
 
+// Its strokes would begin a holdout or a zone of it.
+TEST_F(SessionByActions, OfANewRegionTheMatteIsPainted) {
+    open();
+    for (const int layer : {1, -1}) {
+        act(SelectMatteLayer{layer});
+        update();
+        ASSERT_EQ(view().matte_layer, layer);
+        Region added;
+        added.name = "beside " + std::to_string(layer);
+        act(DoEdit{AddRegion{added, {}}});
+        update();
+        ASSERT_EQ(region().name, added.name);
+        EXPECT_EQ(view().matte_layer, 0);
+        paint();
+        EXPECT_EQ(region().matte->keyframes.size(), 1U);
+        EXPECT_TRUE(region().zones->empty());
+        EXPECT_TRUE(region().holdouts->empty());
+    }
+}
+
 // It would be a wrong statement there.
 TEST_F(SessionByActions, ARefusalGoesWhenItHoldsNoMore) {
     open();

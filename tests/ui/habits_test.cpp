@@ -30,7 +30,7 @@ TEST_F(Habits, EachWorkspaceIsLeftAsItWas) {
     robot->frames(2);
     robot->key("Shift+Q");
     ASSERT_EQ(shell->state().tool, Tool::kScribble);
-    size = {1280, 600};
+    ImGui::GetIO().DisplaySize = {1280, 600};
     robot->frames(2);
     const DrawnItem* add = robot->find("Regions/Add region");
     ASSERT_NE(add, nullptr);

@@ -55,7 +55,7 @@ TEST_F(QueuePage, AnErrorOfAnOutputStaysOnThePage) {
 }
 
 TEST_F(QueuePage, AReasonIsShownWholeOnASmallScreen) {
-    size = {1280, 720};
+    ImGui::GetIO().DisplaySize = {1280, 720};
     add(JobState::kFailed);
     add(JobState::kFailed);
     show();

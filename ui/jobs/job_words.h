@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/jobs/job_view.h"
+#include "ui/base/ctx.h"
 
 namespace weft::ui {
 

@@ -255,8 +255,12 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
     if (!region) return;
     const Theme& t = c.theme;
     std::shared_ptr<const Matte> matte;
+    bool none = c.view.plate_picture != nullptr;  // rather than not known yet
     for (const RegionMatteView& shown : c.view.mattes)
-        if (shown.region == region->id) matte = shown.keep;
+        if (shown.region == region->id) {
+            matte = shown.keep;
+            none &= !matte && shown.kind != RegionMatteView::Kind::kLoading;
+        }
     const std::string& excluded = c.view.project.settings.excluded_licences;
     const std::string key = std::to_string(c.view.document) + "/" + std::to_string(region->id) +
                             "/" + std::to_string(cards.size()) + "/" + excluded + "/" +
@@ -264,8 +268,8 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
     if (matte && c.view.plate_picture && !cards.empty() && !c.view.painting)
         c.textures.suggest_for(key, {region->name, c.view.plate_picture, matte, excluded});
     const std::vector<TextureSuggestion> found = c.textures.suggestions(key);
-    if (found.empty() && (!matte || c.textures.suggested(key))) {
-        if (!matte) quiet(c, "Suggestions need the region's matte on this frame.");
+    if (found.empty() && (none || c.textures.suggested(key))) {
+        if (none) quiet(c, "Suggestions need the region's matte on this frame.");
         return;
     }
     const PanelName name(c, "Suggested");
