@@ -29,8 +29,8 @@ struct Notice {
     int id = 0;
     NoticeKind kind = NoticeKind::kInfo;
     std::string text;
-    double at_s = 0;       ///< Time on the session's clock, s.
-    bool refusal = false;  ///< Of something that cannot be done as things are,
+    double at_s = 0;            ///< Time on the session's clock, s.
+    bool refusal = false;       ///< Of something that cannot be done as things are,
     std::string holds_in = {};  ///< which is this state; empty: not known yet.
 };
 
