@@ -23,4 +23,10 @@ template <class F>
     });
 }
 
+/// Runs `work` in a new thread at the priority of the window: what the hand waits for, shortly.
+template <class F>
+[[nodiscard]] std::future<std::invoke_result_t<std::decay_t<F>>> at_hand(F&& work) {
+    return std::async(std::launch::async, std::forward<F>(work));
+}
+
 }  // namespace weft

@@ -51,7 +51,8 @@ RenderEstimate estimate_of(const Project& project, const Shot& shot, unsigned th
     in.size = shot.plate->size();
     in.frames = shot.plan.frames.size();
     in.analysed =
-        analysed_frames(with_references(shot), shot.plan.frames.front(), shot.plan.frames.back());
+        analysed_frames(with_references(shot), shot.plan.frames.front(), shot.plan.frames.back(),
+                        {shot.plate->frames().front(), shot.plate->frames().back() + 1});
     count_regions(project, in);
     in.quality = project.settings.quality;
     const std::string extension = fs::path(project.output.path).extension().string();

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "app/editor/editor_app.h"
+#include "app/editor/frame_pace.h"
 #include "app/editor/pen.h"
 #include "app/editor/run_modes.h"
 #include "app/editor/second_window.h"
@@ -160,24 +162,30 @@ bool any_key_down() {
     return std::any_of(std::begin(io.KeysDown), std::end(io.KeysDown), [](bool d) { return d; });
 }
 
-// Draws on events, at full rate during playback, and otherwise sleeps.
+WindowMoment moment_of(EditorApp& app, const InputQueue& input) {
+    const SessionView& view = app.session().view();
+    WindowMoment out;
+    out.now_s = glfwGetTime();
+    out.at_hand = ImGui::IsAnyMouseDown() || any_key_down() || input.pending() || view.playing != 0;
+    out.busy = ImGui::IsAnyItemActive() || !app.idle();
+    out.passing = std::any_of(view.notices.begin(), view.notices.end(),
+                              [](const Notice& n) { return n.kind != NoticeKind::kError; });
+    out.changes = app.changes();
+    return out;
+}
+
 void loop(GLFWwindow* window, EditorApp& app, WindowState& state, SecondWindow& second) {
-    std::uint64_t seen = 0;
-    int settle = 3;  // ImGui needs a few frames to settle after an event
+    FramePace pace;
     while (!app.wants_to_leave()) {
-        const bool down = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive();
-        const bool busy = down || state.input.pending() || !app.idle();
-        if (settle > 0 || busy)
-            glfwPollEvents();
+        const double wait_s = pace.wait_s(moment_of(app, state.input));
+        if (wait_s > 0)
+            glfwWaitEventsTimeout(wait_s);
         else
-            glfwWaitEventsTimeout(0.1);
-        const std::uint64_t changes = app.changes();
-        if (state.event || second.take_event() || busy || changes != seen || any_key_down())
-            settle = 3;
-        seen = changes;
-        state.event = false;
-        if (settle == 0) continue;
-        --settle;
+            glfwPollEvents();
+        WindowMoment moment = moment_of(app, state.input);
+        const bool second_event = second.take_event();
+        moment.event = std::exchange(state.event, false) || second_event;
+        if (!pace.draws(moment)) continue;
         draw(window, app, state.input);
         second.draw(app);
     }
@@ -250,6 +258,7 @@ Expected<int> run_window(const EditorOptions& options) {
         app.update_look(static_cast<double>(scale));
         started = app.start();
         if (started) loop(window, app, state, second);
+        glfwHideWindow(window);  // workers may take some seconds to end
         app.close();
         ImGui_ImplOpenGL3_Shutdown();
         ImGui_ImplGlfw_Shutdown();

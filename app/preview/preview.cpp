@@ -93,6 +93,10 @@ void Preview::resume() {
     impl_->signal(*shared);
 }
 
+void Preview::set_render_paused(bool paused) {
+    impl_->render_paused = paused;
+}
+
 bool Preview::try_read(int frame, RegionId region, int layer, PreviewReading& reading) const {
     PreviewReading old;  // freed after the lock is
     const auto shared = impl_->guarded.try_lock();

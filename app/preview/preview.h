@@ -206,6 +206,8 @@ class Preview {
     /// Pauses the analysis until resume(), or until a request changes it.
     void pause();
     void resume();
+    /// Whether a render is paused: the analysis that it may have begun is not waited for.
+    void set_render_paused(bool paused);
 
     /// Reads pictures of `frame` and the confidence of `region`'s matte (`layer` 0) or of its
     /// holdout `layer` − 1. Returns false and leaves `reading` unchanged while a worker holds the

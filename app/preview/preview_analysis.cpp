@@ -87,13 +87,28 @@ std::vector<int> reached_in(const Project& asked, const Shot& shot, const Analys
     return out;
 }
 
+// How far the analysis of the shot has come: `more` steps beyond those of `round`.
+void Preview::Impl::show_steps(const OpenedShot& work, int more) {
+    const auto shared = guarded.lock();
+    // A step that was begun before the shot was changed may end after it.
+    if (!shared->opened || shared->opened->analysis != work.analysis) return;
+    const int done = std::min(round.done + more, round.total);
+    PreviewView& shown = shared->shown;
+    shown.analysing = true;
+    shown.done = done;
+    shown.total = round.total;
+    if (done > 2) shown.seconds_left = seconds_since(round.start) / done * (round.total - done);
+    changed(*shared);
+    ++mattes;
+    signal(*shared);
+}
+
 // What the artist has just painted is looked at before its texture is.
 void Preview::Impl::propagate_to(const OpenedShot& work, int frame, const CancelToken& token) {
     const ShotPlan plan = plan_for(work, work.shot->plate->frames());
     const auto step = [&](int, double) {
-        const auto shared = guarded.lock();
-        changed(*shared);
-        ++mattes;
+        ++round.done;
+        show_steps(work, 0);
     };
     // A failure meets the analysis too, which shows it.
     (void)propagate_mattes_at({*work.shot->source, plan, token, step, nullptr}, *work.store, frame);
@@ -119,6 +134,8 @@ void Preview::Impl::analyse_loop() {
             shared->analysis_cancel = token;
             shared->analysing_key = work->analysis;
         }
+        round = {steps_to(*work, all), 0, Clock::now()};
+        if (round.total > 0) show_steps(*work, 0);
         if (!first.empty()) propagate_to(*work, first.front(), token);
         // Analyse the visible frame first, unless that is nearly all of the work.
         const int for_first = steps_to(*work, first), for_all = steps_to(*work, all);
@@ -138,20 +155,15 @@ void Preview::Impl::analyse_loop() {
     }
 }
 
-// A render makes the same analysis: its frames are taken as they come. Whether none is left.
+// A render makes the same analysis: its frames are taken as they come. Whether to wait no longer:
+// none is left, or it is paused.
 bool Preview::Impl::await_other(const OpenedPtr& work, const std::vector<int>& list, int total) {
     const int left = steps_to(*work, list);
-    const auto shared = guarded.lock();
-    if (!shared->opened || shared->opened->analysis != work->analysis || left >= total)
-        return left == 0;
-    shared->shown.analysing = true;
-    shared->shown.done = total - left;
-    shared->shown.total = total;
-    ++shared->visits;
-    changed(*shared);
-    ++mattes;
-    signal(*shared);
-    return left == 0;
+    if (left < total) {
+        ++guarded.lock()->visits;
+        show_steps(*work, total - left);
+    }
+    return left == 0 || render_paused;
 }
 
 void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list, bool keep_walks,
@@ -162,24 +174,18 @@ void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list,
     const int total = steps_to(*work, list);
     const auto claim = claim_analysis(*work->store, kEditorPatience, token,
                                       [&] { return await_other(work, list, total); });
-    const auto start = Clock::now();
+    round.done += total - steps_to(*work, list);
+    int done_here = 0;
     const auto progress = [&](const ProgressEvent& event) {
-        const auto shared = guarded.lock();
-        // A step that was begun before the shot was changed may end after it.
-        if (!shared->opened || shared->opened->analysis != work->analysis) return;
-        shared->shown.analysing = true;
-        shared->shown.done = static_cast<int>(event.done);
-        shared->shown.total = static_cast<int>(event.total);
-        if (event.done > 2) {
-            shared->shown.seconds_left = seconds_since(start) / static_cast<double>(event.done) *
-                                         static_cast<double>(event.total - event.done);
+        done_here = static_cast<int>(event.done);
+        {
+            const auto shared = guarded.lock();
+            if (shared->wanted && shared->wanted->frame == event.frame) ++shared->visits;
         }
-        if (shared->wanted && shared->wanted->frame == event.frame) ++shared->visits;
-        changed(*shared);
-        ++mattes;
-        signal(*shared);
+        show_steps(*work, done_here);
     };
     const Status done = analyse_shot(*work->shot->source, plan, *work->store, token, progress);
+    round.done += done_here;
     if (done || token.cancelled()) return;
     const auto shared = guarded.lock();
     if (shared->wanted_analysis != work->analysis) return;

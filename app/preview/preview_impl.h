@@ -135,6 +135,7 @@ struct Preview::Impl {
 
     // ---- the analysis thread (preview_analysis.cpp) ----
     void analyse_loop();
+    void show_steps(const OpenedShot& work, int more);
     [[nodiscard]] bool await_other(const OpenedPtr& work, const std::vector<int>& list, int total);
     void analyse(const OpenedPtr& opened, const std::vector<int>& frames, bool keep_walks,
                  const CancelToken& token);
@@ -144,6 +145,15 @@ struct Preview::Impl {
 
     /// The open shot and the index of the region in it; null if it has none.
     [[nodiscard]] std::pair<OpenedPtr, std::size_t> find_opened(RegionId region) const;
+
+    std::atomic<bool> render_paused = false;
+
+    // Of the analysis being made, also what it takes from others; for its thread.
+    struct Round {
+        int total = 0, done = 0;
+        Clock::time_point start = Clock::now();
+    };
+    Round round;
 
     // State shared by the window's thread and the two workers.
     struct Shared {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/render/memory_plan.h"
+#include "app/shot/frame_plan.h"
 
 namespace weft {
 namespace {
@@ -40,7 +41,8 @@ double bytes_per_pixel(std::string_view extension) {
 
 }  // namespace
 
-std::size_t analysed_frames(const Project& project, int first, int last) {
+std::size_t analysed_frames(const Project& project, int first, int last, FrameRange all) {
+    const int rendered = first;
     const auto reach = [&](int frame) {
         first = std::min(first, frame);
         last = std::max(last, frame);
@@ -53,6 +55,12 @@ std::size_t analysed_frames(const Project& project, int first, int last) {
             reach(frame);
         for (const auto& [frame, painted] : region->matte->keyframes)
             reach(frame);
+        const auto& keys = region->matte->keyframes;
+        const int reference = !region->reference_frames.empty() ? region->reference_frames.front()
+                              : !keys.empty()                   ? keys.begin()->first
+                                                                : rendered;
+        reach(std::max(all.begin, reference - kEvidenceReach));
+        reach(std::min(all.end - 1, reference + kEvidenceReach));
     }
     return static_cast<std::size_t>(last - first + 1);
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "app/project/project.h"
+#include "engine/core/frame_range.h"
 #include "engine/core/geometry.h"
 
 namespace weft {
@@ -30,8 +31,10 @@ struct EstimateInputs {
 };
 
 /// Number of frames that the analysis for frames `first` to `last` covers, including references,
-/// corrections and painted mattes of the enabled regions.
-[[nodiscard]] std::size_t analysed_frames(const Project& project, int first, int last);
+/// corrections and painted mattes of the enabled regions, and the frames around a reference that
+/// show its light and form. `all`: those of the plate.
+[[nodiscard]] std::size_t analysed_frames(const Project& project, int first, int last,
+                                          FrameRange all);
 /// Sets what depends on the enabled regions.
 void count_regions(const Project& project, EstimateInputs& in);
 

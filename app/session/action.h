@@ -76,8 +76,7 @@ struct SaveAs {
 struct SaveVersion {
     bool operator==(const SaveVersion&) const = default;
 };
-/// Answers SessionView::save_question: whose values are saved where both changed the same; unset:
-/// nothing is saved.
+/// Answers SessionView::save_question: whose values are saved; unset: nothing is.
 struct AnswerSave {
     std::optional<MergeSide> wins;
     bool operator==(const AnswerSave&) const = default;
@@ -215,6 +214,11 @@ struct ScribbleSelect {
     bool here_only = false;
     bool operator==(const ScribbleSelect&) const = default;
 };
+/// Shows what a scribble would give, without making it; without lines inside, no more.
+struct TryScribble {
+    ScribbleSelect lines;
+    bool operator==(const TryScribble&) const = default;
+};
 /// The matte of this frame is what lies inside the shape.
 struct SetShape {
     RotoShape shape;
@@ -243,8 +247,7 @@ struct CopyKeyframe {
     bool operator==(const CopyKeyframe&) const = default;
 };
 /// Leaves the files of the selected region's matte and paints on from what they show here.
-/// Adds the Cryptomatte object at this plate pixel to what is painted (SelectMatteLayer), or takes
-/// it away.
+/// Adds the Cryptomatte object at this plate pixel to what is painted, or takes it away.
 struct PickCryptomatte {
     Vec2i at{0, 0};
     bool subtract = false;
@@ -293,8 +296,7 @@ struct ApplyTextures {
     std::vector<std::pair<RegionId, std::string>> textures;  ///< Region and path.
     bool operator==(const ApplyTextures&) const = default;
 };
-/// Takes the larger picture that the region's sample was cut from in its stead; its size on the
-/// plate stays.
+/// Takes the larger picture that the region's sample was cut from; the size on the plate stays.
 struct UseLargerOriginal {
     RegionId region = 0;
     bool operator==(const UseLargerOriginal&) const = default;
@@ -389,10 +391,10 @@ using Action = std::variant<
     OpenAny, Save, SaveAs, SaveVersion, AnswerSave, CollectProject, CancelCollect, RelinkFiles,
     CloseProject, Recover, TrustFolder, SelectRegion, SoloRegion, LockRegion, GoToFrame, StepFrames,
     StepKeyframe, Play, SetPlayMode, MarkRange, ShowOnionSkin, BeginStroke, ContinueStroke,
-    EndStroke, SelectMatteLayer, FillPolygon, FloodSelect, ScribbleSelect, SetShape, FollowShape,
-    DetachShape, ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte, KeyMatteHere,
-    CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine, PauseAnalysis,
-    ApplyTexture, ApplyTextures, UseLargerOriginal, PickCryptomatte, ShowLayer, ShowOverlay,
-    ShowStages, ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
+    EndStroke, SelectMatteLayer, FillPolygon, FloodSelect, ScribbleSelect, TryScribble, SetShape,
+    FollowShape, DetachShape, ShowStrip, ChooseFromStrip, GrowMatte, FeatherMatte, ClearMatte,
+    KeyMatteHere, CopyKeyframe, PaintInstead, ExportMattes, FreezeMattes, ScaleByLine,
+    PauseAnalysis, ApplyTexture, ApplyTextures, UseLargerOriginal, PickCryptomatte, ShowLayer,
+    ShowOverlay, ShowStages, ChooseScreen, SetPreviewQuality, SubmitJob, CommandJob, MeasureResult>;
 
 }  // namespace weft

@@ -126,7 +126,11 @@ struct Session::Parts::Actor {
                           a.subtract ? "Subtract shape" : "Add shape", a.here_only);
     }
     void operator()(const FloodSelect& a) const { s.changes_.flood(a); }
-    void operator()(const ScribbleSelect& a) const { s.changes_.scribble(a); }
+    void operator()(const ScribbleSelect& a) const {
+        s.changes_.scribble(a);
+        s.trial_.settle();
+    }
+    void operator()(const TryScribble& a) const { s.trial_.ask(a.lines); }
     void operator()(const SetShape& a) const { s.changes_.set_shape(a.shape); }
     void operator()(const FollowShape& a) const { s.shapes_.follow(a); }
     void operator()(const DetachShape&) const { s.shapes_.detach(); }
@@ -193,6 +197,7 @@ struct Session::Parts::Actor {
         const bool inside = added.index && *added.index < static_cast<int>(regions.size());
         s.selection_.region =
             inside ? regions[static_cast<std::size_t>(*added.index)]->id : regions.back()->id;
+        s.selection_.layer = 0;
     }
     void go_to(int frame) const {
         if (s.playback_.go_to(frame)) moved();

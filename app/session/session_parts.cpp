@@ -33,6 +33,7 @@ Session::Parts::Parts(SessionOptions options, EditorSettings* settings)
       kept_mattes_({document_, selection_, matte_folder_, shelf_, propagated_, notices_}),
       changes_({document_, selection_, plate_, target_, kept_mattes_, notices_, shutdowns_,
                 [this] { end_stroke(); }}),
+      trial_({target_, plate_, changes_, shutdowns_}),
       strokes_({document_, playback_, target_, painting_, kept_mattes_, changes_, notices_}),
       shapes_({document_, selection_, plate_, playback_, preview_, matte_folder_, kept_mattes_,
                tasks_, notices_}),
@@ -64,6 +65,7 @@ void Session::Parts::document_replaced() {
     preview_desk_.forget();
     painting_.cancel();
     changes_.forget();
+    trial_.end();
     textures_.forget();
     shown_mattes_.forget();
     playback_.reset();
@@ -106,7 +108,7 @@ void Session::Parts::flush() {
 }
 
 bool Session::Parts::busy() const {
-    return playback_.direction() != 0 || painting_.active() || changes_.busy() ||
+    return playback_.direction() != 0 || painting_.active() || changes_.busy() || trial_.busy() ||
            textures_.busy() || plate_.opening() || !tasks_.empty() || preview_desk_.pending() ||
            strip_.busy() || measurement_.busy();
 }
@@ -149,6 +151,7 @@ void Session::Parts::advance(double now_s) {
 
 void Session::Parts::advance_mattes() {
     changes_.take();
+    trial_.take();
     strokes_.update();
     painting_.update();
     // Results from in-memory mattes may now be filed under the names of their files.
@@ -160,6 +163,12 @@ void Session::Parts::notice_errors() {
         notices_.add(NoticeKind::kError, error);
     if (const std::string error = document_.take_recovery_error(); !error.empty())
         notices_.add(NoticeKind::kError, "Cannot write the autosave. " + error);
+    std::string now = std::to_string(document_.made()) + " " + std::to_string(document_.redos()) +
+                      " " + std::to_string(playback_.frame()) + " " +
+                      std::to_string(selection_.region) + " " + std::to_string(selection_.layer);
+    for (const RegionId locked : selection_.locked)
+        now += " " + std::to_string(locked);
+    notices_.keep_refusals_of(now);
     notices_.expire();
 }
 
@@ -194,6 +203,9 @@ void Session::Parts::show(double now_s) {
     enter("jobs");
     renders_.watch();
     renders_.show(view_);
+    preview_.set_render_paused(
+        std::any_of(view_.jobs.begin(), view_.jobs.end(),
+                    [](const JobView& job) { return job.state == JobState::kPaused; }));
     view_.notices = notices_.all();
 }
 
@@ -212,6 +224,7 @@ void Session::Parts::show_mattes() {
     shown_mattes_.show(view_);
     const bool still = preview_desk_.read_frame() == playback_.frame();
     if (document_.is_open() && still && !changes_.busy()) strokes_.prepare(view_);
+    trial_.show(view_);
 }
 
 }  // namespace weft

@@ -31,6 +31,7 @@
 #include "app/session/mattes/matte_strokes.h"
 #include "app/session/mattes/paint_target.h"
 #include "app/session/mattes/propagated_mattes.h"
+#include "app/session/mattes/scribble_trial.h"
 #include "app/session/mattes/shown_mattes.h"
 #include "app/session/session.h"
 #include "app/session/textures/texture_choices.h"
@@ -124,6 +125,7 @@ class Session::Parts final : private DocumentFollower {
     PaintTarget target_;
     KeptMattes kept_mattes_;
     MatteChanges changes_;
+    ScribbleTrial trial_;
     MatteStrokes strokes_;
     MatteShapes shapes_;
     MatteExport matte_export_;

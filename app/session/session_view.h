@@ -24,12 +24,14 @@ namespace weft {
 
 enum class NoticeKind : std::uint8_t { kGood, kInfo, kWarning, kError };
 
-/// A message to the user. Errors stay until dismissed.
+/// A message to the user. Errors stay until dismissed, refusals until something changes.
 struct Notice {
     int id = 0;
     NoticeKind kind = NoticeKind::kInfo;
     std::string text;
-    double at_s = 0;  ///< Time on the session's clock, s.
+    double at_s = 0;            ///< Time on the session's clock, s.
+    bool refusal = false;       ///< Of something that cannot be done as things are,
+    std::string holds_in = {};  ///< which is this state; empty: not known yet.
 };
 
 struct PlateView {

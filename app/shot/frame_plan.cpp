@@ -245,9 +245,8 @@ namespace {
 Expected<std::vector<int>> spread_around(const Region& region, const RegionPlan& plan,
                                          const FrameReader& plate, int most,
                                          const std::vector<int>& leave_out) {
-    constexpr int kReach = 48;
     const int reference = plan.reference_frames.front();
-    WEFT_TRY(run, run_around(region, plate, reference, kReach, leave_out));
+    WEFT_TRY(run, run_around(region, plate, reference, kEvidenceReach, leave_out));
     const auto [first, last] = run;
     const int steps = std::min(last - first, most - 1);
     std::vector<int> chosen{first};
@@ -279,7 +278,7 @@ Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan&
                                          const FrameReader& plate,
                                          const std::vector<int>& leave_out) {
     if (plan.form_from == RegionPlan::FormFrom::kNothing) return std::vector<int>{};
-    constexpr int kReach = 48, kOthers = 11;
+    constexpr int kOthers = 11;
     const int reference = plan.reference_frames.front();
     std::vector<int> chosen{reference};
     if (plan.form_from == RegionPlan::FormFrom::kShape ||
@@ -289,7 +288,7 @@ Expected<std::vector<int>> form_evidence(const Region& region, const RegionPlan&
         WEFT_TRY(pattern, SequencePattern::parse(form_files(region).pattern));
         if (pattern.is_single()) return chosen;
     }
-    WEFT_TRY(run, run_around(region, plate, reference, kReach, leave_out));
+    WEFT_TRY(run, run_around(region, plate, reference, kEvidenceReach, leave_out));
     const int others = std::min(run.last - run.first, kOthers);
     for (int k = 0; k <= others; ++k) {
         const int frame = others > 0 ? run.first + (run.last - run.first) * k / others : reference;

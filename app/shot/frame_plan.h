@@ -32,6 +32,9 @@ namespace weft {
                                              int reference, int reach,
                                              const std::vector<int>& leave_out);
 
+/// How far from a region's first reference frame lie those that show its light and form.
+inline constexpr int kEvidenceReach = 48;
+
 /// Up to twelve frames for separating a region's paint from light: spread over the run of frames
 /// with all files, within 48 of the first reference frame. They do not depend on the rendered
 /// frames. Empty if the plate gives no light, or at draft quality. This function and those below

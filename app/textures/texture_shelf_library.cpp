@@ -143,8 +143,13 @@ void TextureShelf::fill_library(const std::string& path) {
     library_path_ = path;
     open_ = true;
     list_library();
+    constexpr std::int64_t kListedEvery = 200;
+    std::int64_t listed = 0;
     const auto progress = [&](const ProgressEvent& event) {
-        if (event.done % 200 == 0) list_library();
+        if (event.done >= listed + kListedEvery) {
+            list_library();
+            listed = event.done;
+        }
         say("Making the starter textures, " + std::to_string(event.done) + " of " +
             std::to_string(event.total));
     };

@@ -192,7 +192,12 @@ class FrameFiller {
             WEFT_TRY(there, fill_painted({index, frame, AnalysisKind::kMatte, k + 1}, holdout.keys,
                                          holdout.confirmed,
                                          [&] { return source_.holdout_key(index, k, frame); }));
-            if (!there) return false;
+            if (!there && frame == frame_) return false;
+            // On other frames it only keeps what it hides out of light and form, as before it was
+            // painted.
+            if (!there)
+                store_.put_beneath({index, frame, AnalysisKind::kMatte, k + 1},
+                                   encode(StoredMatte{Matte(source_.size()), 1.0f}));
         }
         return true;
     }

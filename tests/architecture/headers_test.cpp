@@ -70,6 +70,7 @@ const std::vector<Untested> kThroughOthers{
     {"app/session/mattes/matte_shapes.h", "internal: tests/session, through Session"},
     {"app/session/mattes/matte_strokes.h", "internal: tests/session, through Session"},
     {"app/session/mattes/paint_target.h", "internal: tests/session, through Session"},
+    {"app/session/mattes/scribble_trial.h", "internal: tests/session, through Session"},
     {"app/session/mattes/shown_mattes.h", "internal: tests/session, through Session"},
     {"app/session/textures/texture_choices.h", "internal: tests/session, through Session"},
     {"app/session/textures/texture_pitch.h", "internal: tests/session, through Session"},

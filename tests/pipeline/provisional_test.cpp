@@ -237,6 +237,45 @@ TEST(Provisional, TakesMattesFromBeforeAStroke) {
     EXPECT_EQ(matte(6), decode_matte(*then.get({0, 6, AnalysisKind::kMatte}))->matte);
 }
 
+class ShotWithPaintedHoldout final : public MemoryShot {
+  public:
+    ShotWithPaintedHoldout(const MemoryShot& shot, Matte holdout)
+        : MemoryShot(shot), holdout_(std::move(holdout)) {}
+    [[nodiscard]] Expected<Matte> holdout_key(int, int, int) const override { return holdout_; }
+
+  private:
+    Matte holdout_;
+};
+
+// The reference frame's holdout is not known then.
+TEST(Provisional, ShowsAHoldoutOnTheFrameOnWhichItIsPainted) {
+    MemoryShot painted = make_wall();
+    painted.mattes.clear();
+    painted.keys[{0, kFirst}] = box_matte(kRegionBox);
+    const ShotWithPaintedHoldout shot(painted, box_matte({40, 30, 60, 60}));
+    RegionPlan region = lit_region();
+    region.matte_keys = {kFirst};
+    const ShotPlan before = make_plan(region);
+    MemoryAnalysisStore then;
+    ASSERT_TRUE(analyse_shot(shot, before, then, {}, {}));
+    ShotPlan now = before;
+    now.regions[0].painted_holdouts.emplace_back().keys = {5};
+    const auto at = [&](int frame) {
+        auto made = provisional_frame(shot, now, kNothing, frame, {stand_in(before, then)});
+        EXPECT_TRUE(made) << made.error().text();
+        return std::move(*made);
+    };
+    const ProvisionalFrame made = at(5);
+    ASSERT_TRUE(made.shows_anything());
+    const ImageF3 with = rendered(shot, made.plan, *made.store, 5, made.shown);
+    const ImageF3 without = rendered(shot, before, then, 5);
+    const ImageF3& plate = **shot.plate(5);
+    EXPECT_NE(without.pixel(50, 45)[0], plate.pixel(50, 45)[0]);
+    EXPECT_EQ(with.pixel(50, 45)[0], plate.pixel(50, 45)[0]) << "it is cut out";
+    EXPECT_NE(with.pixel(75, 45)[0], plate.pixel(75, 45)[0]);
+    EXPECT_FALSE(at(6).shows_anything()) << "the holdout has not been propagated there";
+}
+
 TEST(DraftAnalysis, LeadsToAFrameOnTheShortestWay) {
     MemoryShot shot = make_wall();
     shot.mattes.clear();

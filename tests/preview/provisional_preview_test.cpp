@@ -8,7 +8,10 @@
 #include <filesystem>
 #include <thread>
 
+#include "app/base/background.h"
+#include "app/cache/analysis_cache.h"
 #include "app/preview/preview.h"
+#include "app/shot/shot.h"
 #include "engine/media/frame_writer.h"
 
 namespace weft {
@@ -23,6 +26,7 @@ constexpr int kFrames = 6;
 class ProvisionalPreview : public testing::Test {
   protected:
     void SetUp() override {
+        keep_thread_priority();  // what is waited for would take minutes on a busy machine
         for (const char* name : {"plate", "left", "right"})
             fs::create_directories(folder_ / name);
         for (int frame = 1; frame <= kFrames; ++frame) {
@@ -317,6 +321,45 @@ TEST_F(ProvisionalPreview, CardsTakeTheSameWay) {
     ASSERT_TRUE(wait(all(true))) << now_.view.error;
     preview_->resume();
     ASSERT_TRUE(wait(all(false))) << now_.view.error;
+}
+
+// The propagation of mattes was not.
+TEST_F(ProvisionalPreview, AllOfTheAnalysisIsCountedFromItsFirstStep) {
+    const auto steps = [&](const char* cache) {
+        make_preview(cache);
+        ask();
+        int most = 0;
+        EXPECT_TRUE(wait([&](const PreviewReading& now) {
+            EXPECT_LE(now.view.done, now.view.total);
+            most = std::max(most, now.view.total);
+            return shows_exact(now) && !now.view.analysing;
+        }));
+        return most;
+    };
+    const int from_files = steps("cache_files");
+    request_.project.regions[0] = request_.project.regions[0].with([&](Region& region) {
+        MatteSource painted;
+        painted.keyframes[1].path = (folder_ / "left" / "0001.png").string();
+        region.matte = Leaf<MatteSource>(painted);
+    });
+    EXPECT_GE(steps("cache_painted"), from_files + kFrames - 1);
+}
+
+TEST_F(ProvisionalPreview, ThePausedRenderOfTheSameShotIsNotWaitedFor) {
+    AnalysisCacheOptions options;
+    options.folder = (folder_ / "cache").string();
+    const auto shot = open_shot(request_.project, {});
+    ASSERT_TRUE(shot) << shot.error().text();
+    std::vector<std::string> warnings;
+    const auto render = open_analysis_cache(**shot, options, warnings);
+    ASSERT_TRUE(render) << render.error().text();
+    const auto claim = (*render)->try_claim();
+    ASSERT_TRUE(claim && !claim->empty());
+    request_.frame = 3;  // its track has to be analysed
+    ask();
+    EXPECT_FALSE(wait(shows_exact, std::chrono::seconds(2))) << "the render is at work on it";
+    preview_->set_render_paused(true);
+    EXPECT_TRUE(wait(shows_exact, std::chrono::seconds(13)));
 }
 
 }  // namespace

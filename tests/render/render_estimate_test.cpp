@@ -59,15 +59,21 @@ TEST(RenderEstimate, IsRightOnAPaintedShot) {
 
 TEST(RenderEstimate, TheAnalysisReachesToReferencesAndPaintedMattes) {
     Project project;
-    EXPECT_EQ(analysed_frames(project, 10, 12), 3u);
+    const FrameRange shot{1, 201};
+    EXPECT_EQ(analysed_frames(project, 10, 12, shot), 3u);
     Region region;
     region.reference_frames = {40};
     region.corrections[8] = {};
     project.regions.emplace_back(region);
-    EXPECT_EQ(analysed_frames(project, 10, 12), 33u);
+    EXPECT_EQ(analysed_frames(project, 10, 12, {8, 41}), 33u);
+    EXPECT_EQ(analysed_frames(project, 10, 12, shot), 88u) << "light is measured 48 frames around";
+    region.reference_frames.clear();
+    region.matte = Leaf<MatteSource>(MatteSource{});
+    project.regions[0] = Leaf<Region>(region);
+    EXPECT_EQ(analysed_frames(project, 10, 12, shot), 58u) << "around the first one";
     region.enabled = false;
     project.regions[0] = Leaf<Region>(region);
-    EXPECT_EQ(analysed_frames(project, 10, 12), 3u);
+    EXPECT_EQ(analysed_frames(project, 10, 12, shot), 3u);
 }
 
 TEST(RenderEstimate, IsCalibratedByMeasuredTime) {

@@ -22,7 +22,10 @@ using testing::ElementsAre;
 class DocumentByItself : public testing::Test, private DocumentFollower {
   protected:
     void SetUp() override { keep_thread_priority(); }
-    void TearDown() override { fs::remove_all(folder_); }
+    void TearDown() override {
+        document_.flush_recovery();  // a snapshot is still written into the folder
+        fs::remove_all(folder_);
+    }
 
     static Edit add(const std::string& name) {
         Region region;
@@ -108,7 +111,9 @@ TEST_F(DocumentByItself, TheSelectionFollowsItsRegions) {
     EXPECT_EQ(selection.layer, 0);
     document_.undo();
     document_.undo();
+    selection.layer = -1;
     selection.follow(document_.project());
+    EXPECT_EQ(selection.layer, 0);
     EXPECT_EQ(selection.region, 0u);
     EXPECT_EQ(selection.of(document_.project()), nullptr);
 }
@@ -126,6 +131,20 @@ TEST(NoticesByThemselves, ErrorsStayAndRepeatedOnesReplaceEachOther) {
     EXPECT_EQ(notices.all()[0].text, "No space.");
     notices.dismiss(notices.all()[0].id);
     EXPECT_TRUE(notices.all().empty());
+}
+
+TEST(NoticesByThemselves, RefusalsGoWithTheStateInWhichTheyHold) {
+    Notices notices;
+    notices.keep_refusals_of("frame 1");
+    notices.add(NoticeKind::kWarning, "The disk is nearly full.");
+    notices.refuse("Nothing can be painted on frame 2.");
+    notices.keep_refusals_of("frame 2");  // it has just come there
+    EXPECT_EQ(notices.all().size(), 2u);
+    notices.keep_refusals_of("frame 2");
+    EXPECT_EQ(notices.all().size(), 2u);
+    notices.keep_refusals_of("frame 3");
+    ASSERT_EQ(notices.all().size(), 1u);
+    EXPECT_EQ(notices.all()[0].text, "The disk is nearly full.");
 }
 
 }  // namespace

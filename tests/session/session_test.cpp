@@ -147,5 +147,79 @@ TEST_F(SessionByActions, AFailedRenderIsReported) {
     EXPECT_EQ(view().jobs[0].state, JobState::kFailed);
 }
 
+TEST_F(SessionByActions, AScribbleShowsItsMatteWhileItIsDrawn) {
+    open();
+    const auto shown = [&] {
+        const ViewU8x1 pixels = view().mattes.back().pixels;
+        return pixels.width() > 0 && pixels.at(44, 32) > 127;
+    };
+    const ScribbleSelect lines{{{{32, 24}, {56, 40}}}, {{{4, 4}, {90, 6}}, {{4, 60}, {90, 60}}}};
+    const std::size_t before = view().history_position;
+    act(TryScribble{lines});
+    ASSERT_TRUE(wait(shown));
+    EXPECT_EQ(view().history_position, before) << "it is only tried";
+    EXPECT_TRUE(region().matte->keyframes.empty());
+    act(TryScribble{});
+    update();
+    EXPECT_FALSE(shown()) << "given up";
+    act(TryScribble{lines});
+    ASSERT_TRUE(wait(shown));
+    act(lines);
+    ASSERT_TRUE(wait([&] {
+        EXPECT_TRUE(shown()) << "it does not flicker";
+        return !region().matte->keyframes.empty();
+    }));
+    act(TryScribble{lines});
+    act(GoToFrame{3});
+    ASSERT_TRUE(wait([&] { return !session_->busy(); }));
+    act(GoToFrame{view().plate.frames.front()});
+    act(Undo{});
+    ASSERT_TRUE(wait([&] { return region().matte->keyframes.empty(); }));
+    update();
+    EXPECT_FALSE(shown()) << "nothing is left of what was tried before";
+}
+
+// Its strokes would begin a holdout or a zone of it.
+TEST_F(SessionByActions, OfANewRegionTheMatteIsPainted) {
+    open();
+    for (const int layer : {1, -1}) {
+        act(SelectMatteLayer{layer});
+        update();
+        ASSERT_EQ(view().matte_layer, layer);
+        Region added;
+        added.name = "beside " + std::to_string(layer);
+        act(DoEdit{AddRegion{added, {}}});
+        update();
+        ASSERT_EQ(region().name, added.name);
+        EXPECT_EQ(view().matte_layer, 0);
+        paint();
+        EXPECT_EQ(region().matte->keyframes.size(), 1U);
+        EXPECT_TRUE(region().zones->empty());
+        EXPECT_TRUE(region().holdouts->empty());
+    }
+}
+
+// It would be a wrong statement there.
+TEST_F(SessionByActions, ARefusalGoesWhenItHoldsNoMore) {
+    open();
+    act(DoEdit{RemoveRegion{{region().id, {}}}});
+    paint();
+    ASSERT_EQ(view().notices.size(), 1U);
+    EXPECT_EQ(view().notices[0].text, "Add a region first; then paint its matte.");
+    update();
+    EXPECT_EQ(view().notices.size(), 1U) << "it stays while it holds";
+    Region wall;
+    wall.name = "wall";
+    act(DoEdit{AddRegion{wall, {}}});
+    update();
+    EXPECT_TRUE(view().notices.empty());
+    act(LockRegion{region().id, true});
+    paint();
+    ASSERT_EQ(view().notices.size(), 1U);
+    act(LockRegion{region().id, false});
+    update();
+    EXPECT_TRUE(view().notices.empty());
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -1,4 +1,6 @@
 // Habits of the hand: menus, modifiers, the wipe's line, and another shot.
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -22,6 +24,58 @@ TEST_F(Habits, APressOutsideOfAMenuClosesItAndActs) {
     ASSERT_TRUE(robot->click("Top/Motion"));
     EXPECT_EQ(shell->state().workspace, Workspace::kMotion);
     EXPECT_EQ(robot->find("Menu/Save"), nullptr);
+}
+
+TEST_F(Habits, EachWorkspaceIsLeftAsItWas) {
+    robot->frames(2);
+    robot->key("Shift+Q");
+    ASSERT_EQ(shell->state().tool, Tool::kScribble);
+    ImGui::GetIO().DisplaySize = {1280, 600};
+    robot->frames(2);
+    const DrawnItem* add = robot->find("Regions/Add region");
+    ASSERT_NE(add, nullptr);
+    const float top = add->min.y;
+    robot->move({1150, 500});
+    for (int k = 0; k < 5; ++k) {
+        robot->wheel(-1);
+        robot->frames(2);
+    }
+    ASSERT_LT(robot->find("Regions/Add region")->min.y, top) << "it is scrolled";
+    const float scrolled = robot->find("Regions/Add region")->min.y;
+    robot->key("F6");
+    robot->frames(3);
+    EXPECT_EQ(robot->find("Regions/Add region")->min.y, top);
+    EXPECT_EQ(shell->state().tool, Tool::kPan) << "no brush by accident";
+    robot->key("F5");
+    robot->frames(3);
+    EXPECT_EQ(robot->find("Regions/Add region")->min.y, scrolled);
+    EXPECT_EQ(shell->state().tool, Tool::kScribble);
+}
+
+TEST_F(Habits, AKeyAfterARenameActs) {
+    robot->frames(2);
+    shell->state().renaming = view.project.regions[0]->id;
+    shell->state().rename_text = "arch";
+    robot->frames(3);
+    robot->key("Enter");
+    robot->frames(2);
+    ASSERT_EQ(shell->state().renaming, RegionId{0});
+    robot->key("F6");
+    EXPECT_EQ(shell->state().workspace, Workspace::kTexture);
+}
+
+TEST_F(Habits, TheQuestionBeforeLeavingIsAsTallAsItsText) {
+    view.modified = true;
+    robot->frames(2);
+    robot->key("Ctrl+Q");
+    robot->frames(3);
+    const ImGuiWindow* dialog = ImGui::FindWindowByName("Save first?");
+    ASSERT_NE(dialog, nullptr);
+    const DrawnItem* save = robot->find("Save first?/Save");
+    ASSERT_NE(save, nullptr);
+    const float below = dialog->Pos.y + dialog->Size.y - save->max.y;
+    EXPECT_GT(below, 8);
+    EXPECT_LT(below, 28);
 }
 
 TEST_F(Habits, WhatIsTypedInTheSaveDialogReplacesTheProposedName) {

@@ -1,6 +1,7 @@
 // The queue on the Jobs page: its order, and the way from a failure to what it is about.
 #include "app/jobs/job_record.h"
 #include "tests/ui/ui_harness.h"
+#include "ui/jobs/job_words.h"
 
 namespace weft::test {
 namespace {
@@ -51,6 +52,39 @@ TEST_F(QueuePage, AnErrorOfAnOutputStaysOnThePage) {
     robot->frames(2);
     EXPECT_EQ(shell->state().workspace, Workspace::kJobs);
     EXPECT_TRUE(shell->state().pointed.found) << shell->state().pointed.name;
+}
+
+TEST_F(QueuePage, AReasonIsShownWholeOnASmallScreen) {
+    ImGui::GetIO().DisplaySize = {1280, 720};
+    add(JobState::kFailed);
+    add(JobState::kFailed);
+    show();
+    const float one_line = top_of(2) - top_of(3);
+    view.jobs[2].error =
+        "The shape does not lie on the region on its reference frame, which is frame 1001 of "
+        "/shots/reel_12/sequence_004/plates/interior_day_v003.####.exr. Draw it over the surface, "
+        "or choose another reference frame under Motion, then render the shot again.";
+    robot->frames(2);
+    EXPECT_GT(top_of(2) - top_of(3), one_line + 10);
+}
+
+TEST(JobWords, SayWhatARenderDoesAndNoTimeThatIsNotKnown) {
+    JobView job;
+    job.id = 3;
+    job.state = JobState::kRunning;
+    EXPECT_EQ(ui::job_summary(job), "Job 3: starting");
+    job.stage = WorkStage::kAnalyse;
+    job.total = 104;
+    job.done = 2;
+    EXPECT_EQ(ui::job_summary(job), "Job 3: analysing 1%");
+    job.left_s = 84;
+    EXPECT_EQ(ui::job_summary(job), "Job 3: analysing 1%, 1:24 left");
+    EXPECT_EQ(ui::job_line(job), "Analysing  2 of 104   1:24 left");
+    job.state = JobState::kPaused;
+    EXPECT_EQ(ui::job_summary(job), "Job 3: paused 1%");
+    job.state = JobState::kFailed;
+    job.error = "The disk is full.";
+    EXPECT_EQ(ui::job_line(job), "Failed. The disk is full.");
 }
 
 class QueueAfterARestart : public SessionTest {};

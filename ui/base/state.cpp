@@ -4,10 +4,11 @@ namespace weft {
 
 void set_workspace(UiState& state, Workspace workspace) {
     if (state.workspace == workspace) return;
+    if (state.workspace == Workspace::kMask) state.mask_tool = state.tool;
     state.workspace = workspace;
     // Never start with a brush outside the Mask workspace: an accidental stroke would change the
     // matte.
-    state.tool = workspace == Workspace::kMask ? Tool::kBrush : Tool::kPan;
+    state.tool = workspace == Workspace::kMask ? state.mask_tool : Tool::kPan;
     state.brush.outline.clear();
     state.shape_drawing = false;
     state.handle_held.clear();

@@ -291,6 +291,7 @@ struct UiState {
     std::uint64_t document = 0;  ///< SessionView::document that the rest belongs to.
     Workspace workspace = Workspace::kMask;
     Tool tool = Tool::kBrush;
+    Tool mask_tool = Tool::kBrush;  ///< That was in hand when the Mask workspace was left.
     ViewerState viewer;
     CompareState compare_with;
     BrushState brush;

@@ -40,6 +40,24 @@ void leave_now(Ctx& c, const LeaveFor& what) {
     }
 }
 
+// Something that this window has submitted is being rendered.
+bool renders(const Ctx& c) {
+    return std::any_of(c.view.jobs.begin(), c.view.jobs.end(), [&](const JobView& j) {
+        return own(c, j) && (j.state == JobState::kRunning || j.state == JobState::kPaused);
+    });
+}
+
+// A dialog as tall as its text and a row of buttons, which follow.
+void begin_question(Ctx& c, const char* title, const std::string& text, bool& open) {
+    const Theme& t = c.theme;
+    const float width = t.px(440), gap = t.px(12);
+    const float text_h = ImGui::CalcTextSize(text.c_str(), nullptr, false, width - t.px(32)).y;
+    const float spaces = 2 * ImGui::GetStyle().ItemSpacing.y + gap;
+    begin_sheet(c, title, {width, t.px(50) + text_h + spaces + t.row + t.px(16)}, open);
+    wrapped(c, text, t.text);
+    ImGui::Dummy({0, gap});
+}
+
 }  // namespace
 
 void leave_for(Ctx& c, const LeaveFor& what) {
@@ -63,26 +81,22 @@ void leave_question(Ctx& c) {
         return;
     }
     if (!c.view.modified && c.state.leave_then.kind == LeaveFor::Kind::kQuit) {
-        const bool rendering =
-            std::any_of(c.view.jobs.begin(), c.view.jobs.end(), [&](const JobView& j) {
-                return own(c, j) && (j.state == JobState::kRunning || j.state == JobState::kPaused);
-            });
-        if (!rendering) {
+        if (!renders(c)) {
             c.state.leave_asked = false;
             c.state.leave = true;
             return;
         }
     }
-    const Theme& t = c.theme;
     bool open = true;
     const bool modified = c.view.modified;
-    begin_sheet(c, modified ? "Save first?" : "A render is running", {t.px(440), t.px(190)}, open);
-    wrapped(c,
-            modified ? "'" + c.view.title + "' has changes that are not saved."
-                     : "The render continues when the editor is closed; its frames are written "
-                       "to its output folder.",
-            t.text);
-    ImGui::Dummy({0, t.px(12)});
+    if (modified)
+        begin_question(c, "Save first?", "'" + c.view.title + "' has changes that are not saved.",
+                       open);
+    else
+        begin_question(c, "A render is running",
+                       "The render continues when the editor is closed; its frames are written to "
+                       "its output folder.",
+                       open);
     if (modified) {
         if (button(c, "Save", {.look = Look::kPrimary})) {
             if (c.view.path.empty()) {

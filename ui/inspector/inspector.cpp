@@ -57,7 +57,7 @@ void region_list(Ctx& c) {
         ImGui::SetCursorScreenPos({name_x, at.y});
         if (c.state.renaming == region.id) {
             ImGui::SetCursorScreenPos({name_x - t.px(6), at.y + t.px(4)});
-            ImGui::SetKeyboardFocusHere();
+            if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
             input(c, "Rename", c.state.rename_text, "Name", name_w);
             if (ImGui::IsItemDeactivated() || ImGui::IsKeyPressed(257)) {
                 if (!c.state.rename_text.empty() && c.state.rename_text != region.name &&
@@ -114,18 +114,13 @@ void region_list(Ctx& c) {
     ImGui::PopStyleVar();
 }
 
-}  // namespace
-
-void inspector(Ctx& c, ImVec2 size) {
-    const Theme& t = c.theme;
-    begin_panel(c, "Inspector", size, t.panel, true, t.px(10));
+void inspector_contents(Ctx& c) {
     if (!c.view.open) {
         empty_state(c, icons::kLayers, "Nothing open", "Open a shot to see its regions here.");
-        end_panel(c);
         return;
     }
     region_list(c);
-    ImGui::Dummy({0, t.px(4)});
+    ImGui::Dummy({0, c.theme.px(4)});
     switch (c.state.workspace) {
         case Workspace::kMask:
             mask_inspector(c);
@@ -145,7 +140,17 @@ void inspector(Ctx& c, ImVec2 size) {
         case Workspace::kJobs:
             break;
     }
+}
+
+}  // namespace
+
+void inspector(Ctx& c, ImVec2 size) {
+    const Theme& t = c.theme;
+    ImGui::PushID(static_cast<int>(c.state.workspace));  // each keeps its own scroll position
+    begin_panel(c, "Inspector", size, t.panel, true, t.px(10));
+    inspector_contents(c);
     end_panel(c);
+    ImGui::PopID();
 }
 
 }  // namespace weft::ui

@@ -5,31 +5,15 @@
 #include "app/render/render_estimate.h"
 #include "ui/base/icons.h"
 #include "ui/jobs/folder_of.h"
+#include "ui/jobs/job_words.h"
 #include "ui/jobs/jobs.h"
 #include "ui/jobs/problem.h"
 #include "ui/jobs/render_card.h"
 #include "ui/widgets/widgets.h"
+#include "ui/widgets/wrap.h"
 
 namespace weft::ui {
 namespace {
-
-const char* state_name(JobState state) {
-    switch (state) {
-        case JobState::kWaiting:
-            return "Waiting";
-        case JobState::kRunning:
-            return "Rendering";
-        case JobState::kPaused:
-            return "Paused";
-        case JobState::kDone:
-            return "Done";
-        case JobState::kCancelled:
-            return "Cancelled";
-        case JobState::kFailed:
-            return "Failed";
-    }
-    return "";
-}
 
 ImU32 state_color(const Theme& t, JobState state) {
     switch (state) {
@@ -100,10 +84,19 @@ void job_row(Ctx& c, const JobView& job) {
     ImGui::PushID(job.id);
     const PanelName name(c, "Job " + std::to_string(job.id));
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float w = ImGui::GetContentRegionAvail().x, h = t.px(92);
+    const float w = ImGui::GetContentRegionAvail().x;
+    // Reasons of failures take as many lines as they need.
+    ImGui::PushFont(t.small);
+    const std::string line =
+        wrapped_at_words(job_line(job), w - t.px(132 + 14 + 10), [](std::string_view text) {
+            return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
+        });
+    const float line_h = std::max(t.px(19), ImGui::CalcTextSize(line.c_str()).y);
+    ImGui::PopFont();
+    const float h = t.px(73) + line_h;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + w, at.y + h}, t.raised, t.radius);
-    const ImVec2 thumb_max(at.x + t.px(132), at.y + h - t.px(8));
+    const ImVec2 thumb_max(at.x + t.px(132), at.y + t.px(84));
     const ImVec2 thumb_min(at.x + t.px(8), at.y + t.px(8));
     list.AddRectFilled(thumb_min, thumb_max, t.field, t.radius);
     if (job.thumbnail)
@@ -129,26 +122,8 @@ void job_row(Ctx& c, const JobView& job) {
     if (part > 0)
         list.AddRectFilled({x, bar_y}, {x + (right - x) * part, bar_y + t.px(6)},
                            state_color(t, job.state), t.px(3));
-    std::string line = state_name(job.state);
-    if (job.state == JobState::kRunning && job.stage == WorkStage::kAnalyse) line = "Analysing";
-    if (job.state == JobState::kRunning && job.stage == WorkStage::kWait)
-        line = "Taking the editor's analysis";
-    if (job.state == JobState::kRunning && !job.stage) line = "Starting";
-    if (!job.error.empty()) {
-        line += ". " + job.error;
-    } else {
-        if (job.total > 0)
-            line += "  " + std::to_string(job.done) + " of " + std::to_string(job.total);
-        if (job.left_s > 0) line += "   " + time_text(job.left_s) + " left";
-        if (job.frames_per_minute > 0)
-            line += "   " + number_text(job.frames_per_minute, 1) + " frames a minute";
-        const bool done = job.state == JobState::kDone;
-        if (job.elapsed_s > 0)
-            line += std::string(done ? "   in " : "   ") + time_text(job.elapsed_s) +
-                    (done ? "" : " elapsed");
-    }
-    text_in(list, t.small, {x, at.y + t.px(61)}, {right, at.y + t.px(80)},
-            state_color(t, job.state), fitted(line, right - x).c_str(), 0);
+    text_in(list, t.small, {x, at.y + t.px(61)}, {right, at.y + t.px(61) + line_h},
+            state_color(t, job.state), line.c_str(), 0);
     ImGui::PopFont();
     job_buttons(c, job, {right, at.y + t.px(4)});
     ImGui::SetCursorScreenPos(at);

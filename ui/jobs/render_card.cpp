@@ -93,8 +93,10 @@ RenderEstimate estimate_of(const Ctx& c, const std::vector<int>& frames, Quality
     in.layers = !c.state.output.layers.empty();
     // The preview's analysis is reused by a render of the same quality.
     const bool analysed = v.preview_quality == quality && v.result_current && !v.preview.analysing;
-    in.analysed =
-        analysed || frames.empty() ? 0 : analysed_frames(v.project, frames.front(), frames.back());
+    in.analysed = analysed || frames.empty()
+                      ? 0
+                      : analysed_frames(v.project, frames.front(), frames.back(),
+                                        {v.plate.frames.front(), v.plate.frames.back() + 1});
     return estimate_render(in);
 }
 

@@ -147,12 +147,12 @@ void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
 
 namespace {
 
-void emit_scribbles(Ctx& c) {
+ScribbleSelect scribbles(const Ctx& c) {
     ScribbleSelect out;
     out.here_only = c.settings.here_only;
     for (const Scribble& one : c.state.scribbles.lines)
         (one.outside ? out.drop : out.keep).push_back(one.line);
-    if (!out.keep.empty()) c.emit(std::move(out));
+    return out;
 }
 
 // Lines whose step of the history was undone, also before it was there.
@@ -218,12 +218,15 @@ void scribble_tool(Ctx& c, const ViewMap& map, bool active) {
         const int step = c.view.history_position + (c.view.matte_busy ? 2 : 1);
         s.lines.push_back({{map.to_plate(ImGui::GetIO().MousePos)}, subtracts(), step, false});
     } else if (s.drawing) {
+        const std::size_t before = s.lines.back().line.size();
         for (const Vec2 point : path_on_plate(c, map))
             s.lines.back().line.push_back(point);
-        if (!ImGui::IsMouseDown(0)) {
-            s.drawing = false;
-            emit_scribbles(c);
-        }
+        ScribbleSelect all = scribbles(c);
+        s.drawing = ImGui::IsMouseDown(0);
+        if (s.drawing && s.lines.back().line.size() > before)
+            c.emit(TryScribble{std::move(all)});
+        else if (!s.drawing && !all.keep.empty())
+            c.emit(std::move(all));
     } else {
         take_undone_away(s, c.view);
         take_painted_over_away(s, c.view);
@@ -231,6 +234,7 @@ void scribble_tool(Ctx& c, const ViewMap& map, bool active) {
     if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(256)) {
         forget_scribbles(s);
         s.drawing = false;
+        c.emit(TryScribble{});
     }
     for (const Scribble& one : s.lines)
         outline(c, map, one.line, false, one.outside ? c.theme.bad : c.theme.good);

@@ -96,7 +96,7 @@ constexpr Word kWords[] = {
     {"form.source", "depth", "Depth"},
     {"form.source", "shape", "Shape"},
     {"form.source", "flat", "Flat"},
-    {"texture.mode", "auto", "Auto (from the sample)"},
+    {"texture.mode", "auto", "Auto"},
     {"texture.mode", "synthesize", "Synthesize"},
     {"texture.mode", "tile", "Tile"},
     {"texture.mode", "stretch", "Stretch"},

@@ -43,6 +43,7 @@ void add_region(Ctx& c) {
     c.edit(AddRegion{region, {}});
     // What it needs first is a matte.
     set_workspace(c.state, Workspace::kMask);
+    if (c.state.tool == Tool::kPan) c.state.tool = Tool::kBrush;
 }
 
 // The frame where a look pays most; from there the next one, around.

@@ -3,6 +3,7 @@
 
 #include "ui/base/icons.h"
 #include "ui/files/files.h"
+#include "ui/jobs/job_words.h"
 #include "ui/shell/bars.h"
 #include "ui/widgets/widgets.h"
 
@@ -148,6 +149,24 @@ void workspace_tabs(Ctx& c, ImVec2 origin, float left, float right) {
     }
 }
 
+// What was last said, whole under the mouse.
+void last_message(Ctx& c, ImVec2 min, ImVec2 max) {
+    const Theme& t = c.theme;
+    const std::string last = !c.state.status.empty()   ? c.state.status
+                             : !c.view.notices.empty() ? c.view.notices.back().text
+                                                       : "";
+    const float room = max.x - min.x;
+    if (last.empty() || room < t.px(60)) return;
+    ImGui::PushFont(t.small);
+    const std::string shown = fitted(last, room);
+    text_in(*ImGui::GetWindowDrawList(), t.small, min, max, t.quiet, shown.c_str(), 0);
+    ImGui::PopFont();
+    ImGui::SetCursorScreenPos(min);
+    ImGui::InvisibleButton("##last", {room, max.y - min.y});
+    c.note("Last message");
+    if (shown != last) tooltip(c, last.c_str());
+}
+
 }  // namespace
 
 void top_bar(Ctx& c, ImVec2 size) {
@@ -237,28 +256,15 @@ void status_bar(Ctx& c, ImVec2 size) {
                  v.play_fps > 0.95 * v.plate.fps ? t.quiet : t.warn);
     }
     for (const JobView& job : v.jobs) {
-        if (job.state != JobState::kRunning) continue;
-        const int percent = job.total > 0 ? 100 * job.done / job.total : 0;
-        cell("Job " + std::to_string(job.id) + ": " +
-                 (job.stage == WorkStage::kRender ? ""
-                  : !job.stage                    ? "starting "
-                                                  : std::string(name_of(*job.stage)) + " ") +
-                 std::to_string(percent) + "%  " + time_text(job.left_s),
-             t.px(180), t.accent_hover);
+        const bool paused = job.state == JobState::kPaused;
+        if (job.state == JobState::kRunning || paused)
+            cell(job_summary(job), t.px(paused ? 130 : 210), paused ? t.warn : t.accent_hover);
     }
     if (v.preview.analysing && v.preview.total > 0) {
         cell("Analysing " + percent_text(v.preview.done, v.preview.total), t.px(124),
              t.accent_hover);
     }
-    const std::string last = !c.state.status.empty() ? c.state.status
-                             : !v.notices.empty()    ? v.notices.back().text
-                                                     : "";
-    ImGui::PushFont(t.small);
-    const float room = origin.x + size.x - t.px(10) - x;
-    if (room > t.px(60))
-        text_in(list, t.small, {x, origin.y}, {origin.x + size.x - t.px(10), bottom}, t.quiet,
-                fitted(last, room).c_str(), 0);
-    ImGui::PopFont();
+    last_message(c, {x, origin.y}, {origin.x + size.x - t.px(10), bottom});
     end_panel(c);
 }
 

@@ -188,6 +188,7 @@ bool cell(Ctx& c, const TextureCard& card, ImVec2 at, float side, const char* ca
     c.note(caption);
     const bool hovered = ImGui::IsItemHovered();
     const bool twice = hovered && ImGui::IsMouseDoubleClicked(0);
+    tooltip(c, (card.name + ". Double-click to apply it, or drag it onto a surface").c_str());
     texture_drag_source(c, card);
     ImGui::PopID();
     texture_thumbnail(c, card.path, at, {at.x + side, at.y + side});
@@ -275,7 +276,9 @@ void large(Ctx& c, const TextureCard& card, ImVec2 size) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 max(at.x + room.x, at.y + picture_h);
     list.AddRectFilled(at, max, t.field, t.radius);
-    if (const PicturePtr picture = c.textures.thumbnail(card.path, 512)) {
+    PicturePtr picture = c.textures.thumbnail(card.path, 512);
+    if (!picture) picture = c.textures.thumbnail(card.path, static_cast<int>(t.px(128)));
+    if (picture) {
         if (const ImTextureID id = c.pictures.texture(picture)) {
             // Tiled at one screen pixel per texel, to judge the joins.
             const float w = static_cast<float>(picture->size.width);

@@ -255,8 +255,12 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
     if (!region) return;
     const Theme& t = c.theme;
     std::shared_ptr<const Matte> matte;
+    bool none = c.view.plate_picture != nullptr;  // rather than not known yet
     for (const RegionMatteView& shown : c.view.mattes)
-        if (shown.region == region->id) matte = shown.keep;
+        if (shown.region == region->id) {
+            matte = shown.keep;
+            none &= !matte && shown.kind != RegionMatteView::Kind::kLoading;
+        }
     const std::string& excluded = c.view.project.settings.excluded_licences;
     const std::string key = std::to_string(c.view.document) + "/" + std::to_string(region->id) +
                             "/" + std::to_string(cards.size()) + "/" + excluded + "/" +
@@ -264,15 +268,16 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
     if (matte && c.view.plate_picture && !cards.empty() && !c.view.painting)
         c.textures.suggest_for(key, {region->name, c.view.plate_picture, matte, excluded});
     const std::vector<TextureSuggestion> found = c.textures.suggestions(key);
-    if (found.empty()) {
-        if (!c.textures.suggested(key))
-            quiet(c, ("Finding textures for " + region->name + "…").c_str());
+    if (found.empty() && (none || c.textures.suggested(key))) {
+        if (none) quiet(c, "Suggestions need the region's matte on this frame.");
         return;
     }
     const PanelName name(c, "Suggested");
     suggestion_heading(c, "Suggested for " + region->name + ", on this frame");
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float w = t.px(148), h = t.px(92), step = w + t.px(10);
+    // Its room is kept while they are looked for, so that the textures below do not move away.
+    const ImVec2 below(at.x, at.y + h + t.px(28 + kReasonLines * kReasonLine_px));
     const float room = ImGui::GetContentRegionAvail().x;
     const auto fit = static_cast<std::size_t>(std::max(1.0f, std::floor((room + t.px(10)) / step)));
     std::vector<std::string> paths;
@@ -290,7 +295,9 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
         c.state.strip_textures = paths;
         c.emit(ShowStrip{StripKind::kSuggested, paths});
     }
-    ImGui::SetCursorScreenPos({at.x, at.y + h + t.px(28 + kReasonLines * kReasonLine_px)});
+    // The library knows textures before it lists them.
+    if (shown == 0) quiet(c, ("Finding textures for " + region->name + "…").c_str());
+    ImGui::SetCursorScreenPos(below);
     ImGui::Dummy({0, 0});
 }
 

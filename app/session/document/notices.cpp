@@ -11,6 +11,17 @@ void Notices::add(NoticeKind kind, std::string text) {
     if (all_.size() > kMost) all_.erase(all_.begin());
 }
 
+void Notices::refuse(std::string text) {
+    add(NoticeKind::kWarning, std::move(text));
+    all_.back().refusal = true;
+}
+
+void Notices::keep_refusals_of(const std::string& now) {
+    for (Notice& notice : all_)
+        if (notice.refusal && notice.holds_in.empty()) notice.holds_in = now;
+    std::erase_if(all_, [&](const Notice& n) { return n.refusal && n.holds_in != now; });
+}
+
 void Notices::dismiss(int notice) {
     std::erase_if(all_, [&](const Notice& n) { return n.id == notice; });
 }

@@ -23,9 +23,11 @@ struct Selection {
     [[nodiscard]] const Region* of(const Project& project) const {
         return region_by_id(project, region);
     }
-    /// Selects the topmost region if the selected one is not there any more.
+    /// Selects the matte of the topmost region if the selected one is not there any more.
     void follow(const Project& project) {
-        if (!of(project)) region = project.regions.empty() ? 0 : project.regions.back()->id;
+        if (of(project)) return;
+        region = project.regions.empty() ? 0 : project.regions.back()->id;
+        layer = 0;
     }
     /// Selects the region's own matte if the layer was removed, by undo for instance.
     void keep_layer(const Project& project) {

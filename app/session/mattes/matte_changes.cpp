@@ -41,6 +41,12 @@ std::function<ChangedMatte(const MattePtr&)> changed_by(std::function<Matte(cons
 
 }  // namespace
 
+Matte scribbled(const Matte& before, const Picture& picture, const ScribbleSelect& lines) {
+    return segment_scribbles(before, shrink(picture, kLongestSide),
+                             drawn_lines(lines.keep, before.size()),
+                             drawn_lines(lines.drop, before.size()));
+}
+
 void MatteChanges::add(Change change) {
     undone_.clear();
     const bool replaces = !waiting_.empty() && change.replaces != Replaces::kNothing &&
@@ -92,9 +98,7 @@ void MatteChanges::scribble(const ScribbleSelect& action) {
                   action.here_only ? Counts::kPart : Counts::kAll,
                   {"Scribble", "Scribble, "},
                   changed_by([action, picture](const Matte& before) {
-                      return segment_scribbles(before, shrink(*picture, kLongestSide),
-                                               drawn_lines(action.keep, before.size()),
-                                               drawn_lines(action.drop, before.size()));
+                      return scribbled(before, *picture, action);
                   })};
     change.replaces = Replaces::kScribble;
     add(std::move(change));
@@ -157,7 +161,7 @@ bool MatteChanges::start() {
         return true;
     }
     if (!base.before) base.before = std::make_shared<const Matte>(use_.target.size());
-    begun.made = in_background(
+    begun.made = at_hand(
         [make = begun.change.make, before = std::move(base.before)] { return make(before); });
     running_ = std::move(begun);
     return true;

@@ -21,6 +21,10 @@
 
 namespace weft {
 
+/// The matte of a scribble on `before`. Pure.
+[[nodiscard]] Matte scribbled(const Matte& before, const Picture& picture,
+                              const ScribbleSelect& lines);
+
 /// They are made one after another in the order in which they were asked for, each from what the
 /// ones before have left. Belongs to one thread and never blocks it, except in finish().
 class MatteChanges {

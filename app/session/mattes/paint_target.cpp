@@ -19,7 +19,7 @@ bool PaintTarget::is_ready() const {
 
 bool PaintTarget::may_paint() const {
     const auto warn = [&](const std::string& text) {
-        use_.notices.add(NoticeKind::kWarning, text);
+        use_.notices.refuse(text);
         return false;
     };
     const Region* painted = region();
@@ -79,10 +79,9 @@ void PaintTarget::refuse(const PaintBase& base, const MattePlace& place) const {
         use_.notices.add(NoticeKind::kError,
                          "Cannot read what is confirmed on frame " + frame + ". " + base.error);
     if (base.state == PaintBase::State::kUnreached)
-        use_.notices.add(NoticeKind::kWarning,
-                         "The matte has not been propagated to frame " + frame +
-                             " yet. Wait for it, or choose 'Clear matte on this frame' to "
-                             "begin with an empty one.");
+        use_.notices.refuse("The matte has not been propagated to frame " + frame +
+                            " yet. Wait for it, or begin with an empty one: 'Clear matte on "
+                            "this frame' in the menu Region.");
 }
 
 }  // namespace weft
