@@ -45,6 +45,10 @@ constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // for light from a
 
 // On a surface without pattern: of the blur of a patterned one, and of that in rolling guidance.
 constexpr float kPlainSigma = 0.25f, kPlainRollingSigma = 0.8f;
+// Small pixels: a filter is no narrower than one, or than what keeps a plain surface's wrinkles if
+// the pattern's size is many pixels; else what is as fine may be paint.
+constexpr float kFewPixels = 2.0f, kManyPixels = 5.0f;
+constexpr float kPlainLeastPx = 0.7f;
 
 // Median over the places where the plane is known.
 float median_inside(const ImageF1& plane, const ImageF1& weight) {
@@ -98,13 +102,16 @@ LogShading without_pattern(const ImageF1& painted, const ImageF1& luma, const Im
     ImageF1 guide = blurred(weighted_luma, ground, sigma).value;
     const ImageF1 wide = blurred(weighted(guide, ground), ground, 2.0f * sigma).value;
     const float residue = deviation_between(guide, wide, ground);
-    const BilateralScale rolling{mixed(kPlainRollingSigma, kRollingSigma, pattern.presence) * sigma,
-                                 std::clamp(kRangeOfResidue * residue, kMinRange, kMaxRange)};
+    const float fine = smooth_step(pattern_px, kFewPixels, kManyPixels);
+    const float least = mixed(mixed(1, kPlainLeastPx, fine), 1, pattern.presence);
+    const BilateralScale rolling{
+        std::max(least, mixed(kPlainRollingSigma, kRollingSigma, pattern.presence) * sigma),
+        std::clamp(kRangeOfResidue * residue, kMinRange, kMaxRange)};
     for (int i = 0; i < kRollings; ++i)
         guide = joint_bilateral(weighted_luma, ground, guide, rolling);
     if (pattern.marks.dark || pattern.marks.light) bridge_marks(guide, weight, ground);
-    ImageF1 light =
-        joint_bilateral(weighted(guide, weight), weight, guide, {kStepSigma * sigma, kStepRange});
+    ImageF1 light = joint_bilateral(weighted(guide, weight), weight, guide,
+                                    {std::max(least, kStepSigma * sigma), kStepRange});
     remove_remains(light, weight, deviation_between(luma, light, weight),
                    kMostLeftOfPattern * pattern.presence);
     return {std::move(light), std::move(pattern)};
