@@ -18,6 +18,7 @@ constexpr float kMinWeight = 1e-4f;
 // A grid that is as fine as the picture costs more than sums over the few neighbours.
 constexpr float kDirectPx = 1.5f;
 constexpr float kDirectSigmas = 2.2f;
+constexpr float kLeastPx = 0.7f;
 
 struct Grid {
     int width = 0, height = 0, depth = 0;  // cells, borders included
@@ -175,8 +176,9 @@ void slice_row(const Grid& g, int y, const ImageF1& guide, float* out) {
 // The sums of one row over its neighbours, as the definition says.
 void direct_row(const ImageF1& values, const ImageF1& weight, const ImageF1& guide,
                 const BilateralScale& scale, int y, float* out) {
-    const float space_px = std::max(1.0f, scale.space_px);
-    const int width = guide.width(), radius = static_cast<int>(kDirectSigmas * space_px);
+    const float space_px = std::max(kLeastPx, scale.space_px);
+    const int width = guide.width();
+    const int radius = std::max(1, static_cast<int>(kDirectSigmas * space_px));
     const float per_space = -0.5f / (space_px * space_px);
     const float per_range = -0.5f / (scale.range * scale.range);
     const float* own = guide.row(y);

@@ -7,7 +7,7 @@
 namespace weft {
 
 struct BilateralScale {
-    float space_px = 4;  ///< Standard deviation in pixels; less than 1 is taken as 1.
+    float space_px = 4;  ///< Standard deviation in pixels; less than 0.7 is taken as 0.7.
     float range = 0.1f;  ///< Standard deviation in the guide's unit.
 };
 

@@ -96,7 +96,7 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
     part.box = mapped_box(s, ref_from_cur);
     if (part.box.empty()) return;
     downscale_ = s.downscale;
-    part.marks = surface_pattern(undecided_luma(s), s.weight, pattern_px()).marks;
+    part.marks = surface_pattern(painted_luma(s), undecided_luma(s), s.weight, pattern_px()).marks;
     part.luma = part.paint = part.weight = ImageF1(part.box.size());
     // A splat is a scatter: one thread, so that sums come in one order.
     for (int y = 0; y < s.box.height(); ++y) {
@@ -230,6 +230,7 @@ ClipReflectance ReflectanceGatherer::finish() {
     }
     auto [light, pattern] = log_shading(still, options_);
     out.value = difference_of(still.luma, light, out.confidence);
+    out.presence = pattern.presence;
     const int period = pattern_period_px(out.value, out.confidence, kLongestPeriod);
     if (period > 0 && pattern.presence > 0) {
         // Here larger features of the pattern can be separated from light than in a single frame:
@@ -245,6 +246,13 @@ ClipReflectance ReflectanceGatherer::finish() {
     // What moves has been told from paint by that; the light that never does has not.
     out.doubt = light_doubt(light, difference_of(out.value, still.paint, out.confidence),
                             weighted(out.confidence, pattern.ground), pattern_px());
+    // Between marks a plain ground has nothing but its colour: what else is known there are lines
+    // that motion moved beside their places, which would shine through where the frame has none.
+    if (out.marks.dark || out.marks.light) {
+        const ImageF1 own = difference_of(out.value, still.paint, out.confidence);
+        for (std::size_t i = 0; i < own.size_bytes() / sizeof(float); ++i)
+            out.value.data()[i] -= (1 - out.presence) * own.data()[i];
+    }
     return out;
 }
 

@@ -21,6 +21,9 @@ struct ClipReflectance {
     ImageF1 confidence;       ///< Confidence, 0 to 1: the share of the frames that show the place.
     ImageF1 doubt;            ///< light_doubt() of what never moves there.
     PrintedMarks marks = {};  ///< That at least half of the frames show.
+    /// How far the surface has a pattern, 0 to 1. Errors of the motion leave some of it in the
+    /// light; where there is none, what remains of a frame is folds.
+    float presence = 1;
 };
 
 /// Gathers a surface's frames. Not thread-safe.

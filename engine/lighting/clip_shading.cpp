@@ -21,7 +21,10 @@ constexpr float kNoneShown = 0.35f,
                 kAllShown = 0.7f;    // share of the reflectance's detail that shows
 constexpr float kMinEnergy = 1e-5f;  // ln² of detail; below this it is noise
 constexpr float kOutlier = 3.0f;     // deviations of the detail: larger residuals are light
-constexpr float kFineSigma = 1.0f, kFineSpace = 3.0f, kFineRange = 0.08f;
+// Small pixels, and ln units: of what is removed as noise, on a surface without pattern and on one
+// whose pattern may be left.
+constexpr float kPlainFineSpace = 0.7f, kPatternedFineSpace = 3.0f;
+constexpr float kPlainFineSigma = 0.5f, kPatternedFineSigma = 1.0f, kFineRange = 0.08f;
 constexpr int kFineRollings = 2;
 constexpr float kShown = 0.5f;
 constexpr std::int64_t kDoubtfulOneIn = 100;  // one in this many places may be in doubt
@@ -118,12 +121,16 @@ ImageF1 detail_shown(const SurfaceSample& s, const Seen& seen) {
 }
 
 // Removes noise, and what small errors of the motion leave of the pattern. The light's own edges
-// stay.
-ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight) {
+// stay, and all folds where there is no pattern.
+ImageF1 without_noise(const ImageF1& luma, const ImageF1& weight, float presence) {
+    const auto mixed = [presence](float plain, float patterned) {
+        return plain + presence * (patterned - plain);
+    };
     const ImageF1 values = weighted(luma, weight);
-    ImageF1 guide = blurred(values, weight, kFineSigma).value;
+    ImageF1 guide = blurred(values, weight, mixed(kPlainFineSigma, kPatternedFineSigma)).value;
+    const BilateralScale scale{mixed(kPlainFineSpace, kPatternedFineSpace), kFineRange};
     for (int i = 0; i < kFineRollings; ++i)
-        guide = joint_bilateral(values, weight, guide, {kFineSpace, kFineRange});
+        guide = joint_bilateral(values, weight, guide, scale);
     return guide;
 }
 
@@ -144,7 +151,7 @@ bool shows_all(const ImageF1& weight, const ImageF1& share) {
 ImageF1 unmarked(const SurfaceSample& s, const ImageF1& known, const PrintedMarks& marks,
                  const ShadingOptions& options) {
     const float pattern_px = std::max(1.0f, options.pattern_px / static_cast<float>(s.downscale));
-    const ImageF1 ground = ground_between(marks, undecided_luma(s), s.weight, pattern_px);
+    const ImageF1 ground = ground_between(marks, painted_luma(s), s.weight, pattern_px);
     ImageF1 out = known;
     for (std::size_t i = 0; i < out.size_bytes() / sizeof(float); ++i)
         if (!(ground.data()[i] > 0)) out.data()[i] = 0;
@@ -173,7 +180,10 @@ Shading shading_with(const SurfaceSample& sample, const ClipReflectance& reflect
     ImageF1 lit = sample.luma;
     for (std::size_t i = 0; i < lit.size_bytes() / sizeof(float); ++i)
         lit.data()[i] -= seen.value.data()[i];
-    ImageF1 light = without_noise(lit, unmarked(sample, seen.known, reflectance.marks, options));
+    const ImageF1 ground = unmarked(sample, seen.known, reflectance.marks, options);
+    ImageF1 light = without_noise(lit, ground, reflectance.presence);
+    if (reflectance.marks.dark || reflectance.marks.light)
+        bridge_marks(light, sample.weight, ground);
     ImageF1 doubt = seen.doubt;
     if (shows_all(sample.weight, share)) {
         const SurfaceSample known = known_part(sample, share);

@@ -20,8 +20,6 @@
 namespace weft {
 namespace {
 
-constexpr int kChromaWindow = 2;  // times pattern_px
-
 // Scales, measured on clips whose true shading is known.
 // Times the blur's; it may be wide because rolling guidance keeps edges.
 constexpr float kRollingSigma = 2.5f;
@@ -47,6 +45,10 @@ constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // for light from a
 
 // On a surface without pattern: of the blur of a patterned one, and of that in rolling guidance.
 constexpr float kPlainSigma = 0.25f, kPlainRollingSigma = 0.8f;
+// Small pixels: a filter is no narrower than one, or than what keeps a plain surface's wrinkles if
+// the pattern's size is many pixels; else what is as fine may be paint.
+constexpr float kFewPixels = 2.0f, kManyPixels = 5.0f;
+constexpr float kPlainLeastPx = 0.7f;
 
 // Median over the places where the plane is known.
 float median_inside(const ImageF1& plane, const ImageF1& weight) {
@@ -91,20 +93,25 @@ float mixed(float plain, float patterned, float presence) {
 // Rolling guidance (Zhang et al. 2014, eq. 5): the blur removes the pattern; filtering the
 // unblurred luma with that result as the guide restores the edges of wider structures. Across the
 // marks on a plain ground the light is that of the ground.
-LogShading without_pattern(const ImageF1& luma, const ImageF1& weight, float pattern_px) {
-    SurfacePattern pattern = surface_pattern(luma, weight, pattern_px);
+LogShading without_pattern(const ImageF1& painted, const ImageF1& luma, const ImageF1& weight,
+                           float pattern_px) {
+    SurfacePattern pattern = surface_pattern(painted, luma, weight, pattern_px);
     const ImageF1& ground = pattern.ground;
     const float sigma = kPatternSigma * pattern_px * mixed(kPlainSigma, 1, pattern.presence);
     const ImageF1 weighted_luma = weighted(luma, ground);
     ImageF1 guide = blurred(weighted_luma, ground, sigma).value;
     const ImageF1 wide = blurred(weighted(guide, ground), ground, 2.0f * sigma).value;
     const float residue = deviation_between(guide, wide, ground);
-    const BilateralScale rolling{mixed(kPlainRollingSigma, kRollingSigma, pattern.presence) * sigma,
-                                 std::clamp(kRangeOfResidue * residue, kMinRange, kMaxRange)};
+    const float fine = smooth_step(pattern_px, kFewPixels, kManyPixels);
+    const float least = mixed(mixed(1, kPlainLeastPx, fine), 1, pattern.presence);
+    const BilateralScale rolling{
+        std::max(least, mixed(kPlainRollingSigma, kRollingSigma, pattern.presence) * sigma),
+        std::clamp(kRangeOfResidue * residue, kMinRange, kMaxRange)};
     for (int i = 0; i < kRollings; ++i)
         guide = joint_bilateral(weighted_luma, ground, guide, rolling);
-    ImageF1 light =
-        joint_bilateral(weighted(guide, weight), weight, guide, {kStepSigma * sigma, kStepRange});
+    if (pattern.marks.dark || pattern.marks.light) bridge_marks(guide, weight, ground);
+    ImageF1 light = joint_bilateral(weighted(guide, weight), weight, guide,
+                                    {std::max(least, kStepSigma * sigma), kStepRange});
     remove_remains(light, weight, deviation_between(luma, light, weight),
                    kMostLeftOfPattern * pattern.presence);
     return {std::move(light), std::move(pattern)};
@@ -161,8 +168,8 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
 }
 
 LogShading log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
-    LogShading light =
-        without_pattern(undecided_luma(sample), sample.weight, small_pattern(sample, options));
+    LogShading light = without_pattern(painted_luma(sample), undecided_luma(sample), sample.weight,
+                                       small_pattern(sample, options));
     for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
         light.value.data()[i] += sample.daylight.data()[i];
     return light;

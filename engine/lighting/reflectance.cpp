@@ -9,9 +9,11 @@
 #include "engine/core/linear_system.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
+#include "engine/lighting/fold_statistics.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/quadratic_fit.h"
 #include "engine/lighting/sky_shade.h"
+#include "engine/lighting/surface_pattern.h"
 
 namespace weft {
 namespace {
@@ -28,17 +30,9 @@ constexpr double kExplainsNothing = 0.2, kExplains = 0.5;
 // Share of the explained variance in wide structures: up to kTint it is the light's tint, from
 // kPaint on it is painted areas.
 constexpr double kTint = 0.1, kPaint = 0.25;
-// Of what colour explains: its deviation over its slopes' root mean square. In pixels: edges cannot
-// be told from slopes up to kUnresolved, and it counts as paint.
-constexpr float kUnresolved = 1.9f, kResolved = 2.15f;
-// Of the window: up to kFineColour it is paint, from kWideColour on it may be sheen.
-constexpr float kInside = 0.5f;  // of the weight: the rim shows other things
-constexpr float kFineColour = 0.12f, kWideColour = 0.16f;
-// Its slopes' squared mean over their mean square: up to kAtEdges they lie at the edges of paints,
-// from kAllOver on they are all over the surface (noise: 0.79).
-constexpr float kAtEdges = 0.5f, kAllOver = 0.56f;
-// (skewness² + 1) / kurtosis, Sarle's coefficient: two paints have 1, a normal distribution 1/3.
-constexpr float kOneMode = 0.75f, kTwoModes = 0.85f;
+// Chromaticities are noisy: the blur before the direction of folds is measured, of the window, and
+// in pixels.
+constexpr float kSmooth = 0.25f, kLeastSmooth = 2.0f;
 
 struct Standard {
     float mean = 0;
@@ -184,46 +178,17 @@ void keep_tint_of_light(ImageF1& explained, const ImageF1& weight) {
         explained.data()[i] -= keep * (wide.data()[i] - mean);
 }
 
-// The powers of a plane's differences from its mean, and of its slopes, summed up.
-struct ColourMoments {
-    double count = 0, second = 0, third = 0, fourth = 0, slope = 0, square_slope = 0;
-};
-
-ColourMoments moments_inside(const ImageF1& plane, const ImageF1& weight, float mean) {
-    ColourMoments m;
-    const auto inside = [&](int x, int y) { return weight.row(y)[x] > kInside; };
-    for (int y = 1; y + 1 < plane.height(); ++y) {
-        for (int x = 1; x + 1 < plane.width(); ++x) {
-            if (!inside(x, y) || !inside(x - 1, y) || !inside(x + 1, y) || !inside(x, y - 1) ||
-                !inside(x, y + 1))
-                continue;
-            const double d = plane.row(y)[x] - mean;
-            const double along = 0.5 * (plane.row(y)[x + 1] - plane.row(y)[x - 1]);
-            const double down = 0.5 * (plane.row(y + 1)[x] - plane.row(y - 1)[x]);
-            const double square = along * along + down * down;
-            m.count += 1, m.second += d * d, m.third += d * d * d, m.fourth += d * d * d * d;
-            m.slope += std::sqrt(square), m.square_slope += square;
-        }
-    }
-    return m;
-}
-
 // Pile and silk shift their colour with direction, so that it goes with the folds' lightness as
-// paint would. But it changes all over the surface, in lengths of folds, and has no two values;
-// paints meet at edges.
-float sheen_share(const ImageF1& explained, const ImageF1& weight, int window_px) {
-    const float mean = standard_of(explained, weight).mean;
-    const ColourMoments m = moments_inside(explained, weight, mean);
-    if (!(m.second > 0) || !(m.square_slope > 0)) return 0;
-    const double n = m.count, variance = m.second / n;
-    const double wide = std::sqrt(m.second / m.square_slope);
-    const double all_over = m.slope * m.slope / (n * m.square_slope);
-    const double skewness = m.third / n / (variance * std::sqrt(variance));
-    const double modes = (skewness * skewness + 1) * variance * variance / (m.fourth / n);
-    return smooth_step(static_cast<float>(wide), kUnresolved, kResolved) *
-           smooth_step(static_cast<float>(wide / window_px), kFineColour, kWideColour) *
-           smooth_step(static_cast<float>(all_over), kAtEdges, kAllOver) *
-           (1 - smooth_step(static_cast<float>(modes), kOneMode, kTwoModes));
+// paint's would. What is printed on one ground has a direction, too, and is left out.
+float sheen_share(const SurfaceSample& sample, const SkyShade& shade, const ImageF1& explained,
+                  int window_px) {
+    ImageF1 luma = sample.luma;
+    for (std::size_t i = 0; i < shade.light().size_bytes() / sizeof(float); ++i)
+        luma.data()[i] -= shade.light().data()[i];
+    const float pattern_px = static_cast<float>(window_px) / kChromaWindow;
+    const ImageF1 ground = surface_pattern(luma, luma, sample.weight, pattern_px).ground;
+    return fold_share(explained, ground, window_px,
+                      std::max(kLeastSmooth, kSmooth * static_cast<float>(window_px)));
 }
 
 }  // namespace
@@ -253,7 +218,7 @@ ColourCues colour_cues(const SurfaceSample& sample, int window_px, const Dayligh
     });
     keep_tint_of_light(explained, sample.weight);
     const float mean = standard_of(explained, sample.weight).mean;
-    const float paint = 1 - sheen_share(explained, sample.weight, window_px);
+    const float paint = 1 - sheen_share(sample, shade, explained, window_px);
     for (std::size_t i = 0; i < explained.size_bytes() / sizeof(float); ++i) {
         float& e = explained.data()[i];
         e = sample.weight.data()[i] > 0 ? paint * (e - mean) : 0.0f;

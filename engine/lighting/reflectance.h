@@ -6,6 +6,9 @@
 
 namespace weft {
 
+/// The window of colour_cues(), times the pattern's size.
+constexpr int kChromaWindow = 2;
+
 /// What the colours of a surface say of its lightness; both of the size of the sample's box.
 struct ColourCues {
     ImageF1 paint;  ///< The part of luma that follows the surface's chromaticity; its mean is 0.

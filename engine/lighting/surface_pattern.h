@@ -26,13 +26,21 @@ struct SurfacePattern {
 
 /// Marks are darker, or lighter, than their surroundings, nearly all by more than half of the most,
 /// and in at least half of the parts of the surface; creases and shadows have every depth and their
-/// places. `luma`: ln luma of H×W; `weight`: 0 to 1; `pattern_px`: the size below which structures
-/// belong to the surface, in its pixels. Thread-safe, bit-identical for any number of threads.
-[[nodiscard]] SurfacePattern surface_pattern(const ImageF1& luma, const ImageF1& weight,
-                                             float pattern_px);
+/// places. They are looked for in `luma`, ln luma of H×W, because a colour of their own explains
+/// only a part of them; `undecided`: the same without what colours explain. `weight`: 0 to 1;
+/// `pattern_px`: the size below which structures belong to the surface, in its pixels. Thread-safe,
+/// bit-identical for any number of threads.
+[[nodiscard]] SurfacePattern surface_pattern(const ImageF1& luma, const ImageF1& undecided,
+                                             const ImageF1& weight, float pattern_px);
 
-/// `weight`, and 0 on the marks of a surface of which it is known that it has such.
+/// `weight`, and 0 on the marks in `luma` of a surface of which it is known that it has such.
 [[nodiscard]] ImageF1 ground_between(const PrintedMarks& marks, const ImageF1& luma,
                                      const ImageF1& weight, float pattern_px);
+
+/// Where `weight` is above 0 and `ground` is not, `light` becomes a membrane over the marks: each
+/// place the mean of its neighbours, so that shade runs on across a line instead of changing at it.
+/// All H×W, in place; for what is wider than a mark it is only smooth. Thread-safe, bit-identical
+/// for any number of threads.
+void bridge_marks(ImageF1& light, const ImageF1& weight, const ImageF1& ground);
 
 }  // namespace weft

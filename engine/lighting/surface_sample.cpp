@@ -150,12 +150,17 @@ SurfaceSample sample_surface(ViewF3 linear, ViewU8x1 visible, int downscale) {
     return s;
 }
 
-ImageF1 undecided_luma(const SurfaceSample& sample) {
+ImageF1 painted_luma(const SurfaceSample& sample) {
     ImageF1 out = sample.luma;
-    for (const ImageF1* decided : {&sample.paint, &sample.daylight}) {
-        for (std::size_t i = 0; i < decided->size_bytes() / sizeof(float); ++i)
-            out.data()[i] -= decided->data()[i];
-    }
+    for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
+        out.data()[i] -= sample.daylight.data()[i];
+    return out;
+}
+
+ImageF1 undecided_luma(const SurfaceSample& sample) {
+    ImageF1 out = painted_luma(sample);
+    for (std::size_t i = 0; i < sample.paint.size_bytes() / sizeof(float); ++i)
+        out.data()[i] -= sample.paint.data()[i];
     return out;
 }
 

@@ -30,7 +30,9 @@ inline Size reduced_size(Size full, int downscale) {
 /// 128. Pixels at the matte's rim count little, because light of other objects is mixed into them.
 [[nodiscard]] SurfaceSample sample_surface(ViewF3 linear, ViewU8x1 visible, int downscale);
 
-/// Its luma without the parts that colours tell.
+/// Its luma without the light that colours tell.
+[[nodiscard]] ImageF1 painted_luma(const SurfaceSample& sample);
+/// Its luma without the light and the paint that colours tell.
 [[nodiscard]] ImageF1 undecided_luma(const SurfaceSample& sample);
 
 }  // namespace weft

@@ -105,6 +105,52 @@ TEST(Folds, LinesAreNoLightOfAClipWhoseMotionIsOff) {
               0.15);
 }
 
+// Wrinkles a few pixels wide and some percent deep.
+float wrinkle(int x, int y) {
+    return std::sin(0.5f * static_cast<float>(x) + 0.2f * static_cast<float>(y));
+}
+
+TEST(Folds, FaintWrinklesThatStayAreKeptOfAClip) {
+    const ShadingOptions options;
+    const Matte matte = scene::box_matte(kCloth);
+    const SurfaceSample sample = light_sample(cloth([](int x, int y) {
+                                                  const float light =
+                                                      0.5f * std::exp(0.05f * wrinkle(x, y));
+                                                  return Colour{light, light, light};
+                                              }),
+                                              matte, options);
+    ReflectanceGatherer gatherer(options);
+    for (int k = 0; k < 5; ++k)
+        gatherer.add(sample, ImageF2(sample.box.size()));
+    const Shading s = shading_with(sample, gatherer.finish(), ImageF2(sample.box.size()), options);
+    EXPECT_GT(correlation_with(s, wrinkle), 0.9);
+    float least = 1e9f, most = 0;
+    for (int x = 40; x < 80; ++x)
+        least = std::min(least, s.value.at(x, 60)), most = std::max(most, s.value.at(x, 60));
+    EXPECT_GT(most / least, 1.04f) << "they are 1.1";
+}
+
+// Brown clouds on cream: as soft as folds and of one hue, but without a direction.
+TEST(Folds, SoftPaintIsNone) {
+    const auto cloud = [](int px, int py) {
+        const auto x = static_cast<float>(px), y = static_cast<float>(py);
+        return 0.25f * (std::sin(x / 9) + std::sin(y / 9) + std::sin((x + y) / 12) +
+                        std::sin((x - y) / 12));
+    };
+    const Shading s = light_on(cloth([&](int x, int y) {
+        const float share = 0.5f + 0.5f * cloud(x, y);
+        return Colour{0.16f + 0.44f * share, 0.09f + 0.41f * share, 0.05f + 0.33f * share};
+    }));
+    double n = 0, sum = 0, squares = 0;
+    for (int y = (kCloth.y0 + kEdge) / 2; y < (kCloth.y1 - kEdge) / 2; ++y) {
+        for (int x = (kCloth.x0 + kEdge) / 2; x < (kCloth.x1 - kEdge) / 2; ++x) {
+            const double v = std::log(s.value.at(x, y));
+            n += 1, sum += v, squares += v * v;
+        }
+    }
+    EXPECT_LT(std::sqrt(squares / n - sum / n * sum / n), 0.1) << "the paint's is 0.35";
+}
+
 TEST(Folds, AreLightWhereTheirColourShifts) {
     const Shading s = light_on(cloth([](int x, int y) {
         const float lilac = 0.12f * std::pow(0.5f + 0.5f * fold(x, y), 2.0f);
@@ -154,7 +200,7 @@ bool has_marks(const Dark& dark) {
     for (int y = 0; y < kSmall.height; ++y)
         for (int x = 0; x < kSmall.width; ++x)
             luma.row(y)[x] = dark(x, y) ? -1.4f : 0.0f;
-    const SurfacePattern found = surface_pattern(luma, weight, 7);
+    const SurfacePattern found = surface_pattern(luma, luma, weight, 7);
     EXPECT_LT(found.presence, 0.1f);
     return std::any_of(found.ground.data(),
                        found.ground.data() + found.ground.width() * found.ground.height(),
@@ -167,6 +213,56 @@ TEST(SurfacePattern, MarksAreAllOverTheSurface) {
     EXPECT_FALSE(has_marks([](int x, int y) { return x > 30 && x < 34 && y < 80; })) << "a crease";
     EXPECT_FALSE(has_marks([](int x, int y) { return x > 90 && y > 80; })) << "a shadow";
     EXPECT_FALSE(has_marks([](int, int) { return false; }));
+}
+
+// Creases of one depth all over plain cloth, and never darker than half of what is around them.
+TEST(SurfacePattern, CreasesAreNoMarks) {
+    constexpr Size kSmall{140, 104};
+    ImageF1 luma(kSmall);
+    const ImageF1 weight(kSmall, 1.0f);
+    for (int y = 0; y < kSmall.height; ++y) {
+        for (int x = 0; x < kSmall.width; ++x) {
+            const float depth = 0.5f + 0.15f * std::sin(static_cast<float>(x) * 0.2f);
+            const auto beside = static_cast<float>(std::abs(y % 17 - 8));
+            luma.row(y)[x] = -depth * std::max(0.0f, 1 - beside / 3);
+        }
+    }
+    const SurfacePattern found = surface_pattern(luma, luma, weight, 7);
+    EXPECT_FALSE(found.marks.dark);
+    EXPECT_FALSE(found.marks.light);
+}
+
+TEST(SurfacePattern, MarksGoOnWhereTheyAreFaintAndThin) {
+    constexpr Size kSmall{140, 104};
+    ImageF1 luma(kSmall);
+    const ImageF1 weight(kSmall, 1.0f);
+    for (int y = 0; y < kSmall.height; ++y) {
+        for (int x = 0; x < kSmall.width; ++x) {
+            if (y % 17 == 8) luma.row(y)[x] = x < 70 ? -1.4f : -0.25f;
+            if (y % 17 > 8 && y % 17 < 15 && x >= 100) luma.row(y)[x] = -0.25f;  // a fold
+        }
+    }
+    const SurfacePattern found = surface_pattern(luma, luma, weight, 7);
+    EXPECT_TRUE(found.marks.dark);
+    EXPECT_EQ(found.ground.at(90, 42), 0) << "the line where it is faint";
+    EXPECT_GT(found.ground.at(120, 46), 0) << "the fold beside it";
+}
+
+TEST(SurfacePattern, ShadeRunsOnAcrossAMark) {
+    constexpr Size kSmall{40, 20};
+    ImageF1 light(kSmall), ground(kSmall, 1.0f);
+    const ImageF1 weight(kSmall, 1.0f);
+    const auto shade = [](int x) { return 0.03f * static_cast<float>(x); };
+    for (int y = 0; y < 20; ++y) {
+        for (int x = 0; x < 40; ++x) {
+            const bool marked = x >= 18 && x < 24;
+            light.row(y)[x] = marked ? shade(18) : shade(x);
+            ground.row(y)[x] = marked ? 0.0f : 1.0f;
+        }
+    }
+    bridge_marks(light, weight, ground);
+    for (int x = 0; x < 40; ++x)
+        EXPECT_NEAR(light.at(x, 10), shade(x), 0.01f) << x;
 }
 
 }  // namespace
