@@ -175,6 +175,32 @@ TEST(MergeEstimates, TwoDisplacedEdgesBecomeOne) {
     EXPECT_LT(ghosts, 12);
 }
 
+// One walk has taken a block of the ground, which looks like the disc to the cut; over the clip it
+// was found to be outside.
+TEST(MergeEstimates, WhatIsDecidedOverTheClipStays) {
+    const DiscScene scene;
+    MatteEstimate before{scene.matte(0), 0.9f};
+    const MatteEstimate after{scene.matte(0), 0.5f};
+    const Vec2i center(scene.center(0));
+    const auto radius = static_cast<int>(scene.radius_px);
+    const Recti block{center.x - radius - 14, center.y - 6, center.x - radius, center.y + 6};
+    ImageU8x3 frame = scene.frame(0);
+    for (int y = block.y0; y < block.y1; ++y) {
+        for (int x = block.x0; x < block.x1; ++x) {
+            before.matte.at(x, y) = 255;
+            std::copy_n(frame.pixel(center.x, center.y), 3, frame.pixel(x, y));
+        }
+    }
+    const auto taken = [&](float inside) {
+        const ImageF1 decided(scene.size, inside);
+        const Matte merged =
+            merge_estimates(before, after, {1, 0, 2}, frame, {}, {}, decided).matte;
+        return merged.at(block.x0 + 5, center.y);
+    };
+    EXPECT_LT(taken(0.1f), 30);
+    EXPECT_GT(taken(0.9f), 225);
+}
+
 TEST(MergeEstimates, TheSurerEstimateDecides) {
     const DiscScene scene;
     DiscScene wrong = scene;
