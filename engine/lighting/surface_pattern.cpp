@@ -125,7 +125,7 @@ bool are_everywhere(const Outliers& found, const ImageF1& weight, float side, in
 }
 
 int thin_radius(float pattern_px) {
-    return std::max(1, static_cast<int>(kThin * pattern_px + 0.5f));
+    return std::max(1, static_cast<int>(std::lround(kThin * pattern_px)));
 }
 
 // The greatest of `sign` × plane in squares, where `weight` is above 0.
