@@ -9,13 +9,13 @@
 namespace weft {
 namespace {
 
-// Microseconds per pixel of whole frames on two cores, measured on six shots of film at both
-// qualities (docs/BENCHMARKS.md). A draft follows surfaces by the final's motion and mattes, so it
-// saves only where it renders.
+// Microseconds per pixel of whole frames on two cores, measured on five shots of film at both
+// qualities (docs/BENCHMARKS.md, "Painted on one frame", and davis_blackswan). A draft follows
+// surfaces by the final's motion and mattes, so it saves only where it renders.
 struct Costs {
     double motion, matte, region, render;
 };
-constexpr Costs kDraft{0.42, 0.40, 0.22, 0.22}, kFinal{0.48, 0.42, 0.28, 0.28};
+constexpr Costs kDraft{0.36, 0.33, 0.18, 0.22}, kFinal{0.40, 0.34, 0.23, 0.28};
 constexpr double kStart_s = 1.5;
 // Memory of a region's planes and their synthesis; final quality needs larger motion pyramids.
 constexpr std::int64_t kRegionBytes = 90ll << 20, kFinalBytes = 130ll << 20;

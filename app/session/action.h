@@ -246,13 +246,13 @@ struct CopyKeyframe {
     int from = 0, to = 0;
     bool operator==(const CopyKeyframe&) const = default;
 };
-/// Leaves the files of the selected region's matte and paints on from what they show here.
 /// Adds the Cryptomatte object at this plate pixel to what is painted, or takes it away.
 struct PickCryptomatte {
     Vec2i at{0, 0};
     bool subtract = false;
     bool operator==(const PickCryptomatte&) const = default;
 };
+/// Leaves the files of the selected region's matte and paints on from what they show here.
 struct PaintInstead {
     bool operator==(const PaintInstead&) const = default;
 };

@@ -11,9 +11,9 @@ namespace {
 
 constexpr float kInside = 0.5f;  // of the weight: the rim shows other things
 // The coherence of the structure tensor (Bigün & Granlund 1987) over kWidths widths of what a blur
-// leaves, since slopes of noise have no direction: below kNoDirection it is no
-// fold. Measured on film: clouds, stains, a goat 0.2 to 0.4; a rug that waves, a bedspread, a wall
-// whose lamps have two colours 0.7 to 0.8.
+// leaves, since slopes of noise have no direction: below kNoDirection it is no fold. Measured on
+// film: clouds, stains, a goat 0.2 to 0.4; a rug that waves, a bedspread, a wall whose lamps have
+// two colours 0.7 to 0.8.
 constexpr float kNoDirection = 0.45f, kDirection = 0.6f, kWidths = 2.0f;
 // The clearer the direction, the less else has to speak for folds: limits with little of it, below
 // kFaintDirection, and with much, from kClearDirection on.

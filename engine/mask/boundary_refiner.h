@@ -12,6 +12,8 @@ namespace weft {
 /// Lengths in pixels at the frame's size.
 struct RefineScale {
     explicit RefineScale(Size frame);
+    /// A pixel of 854×480.
+    [[nodiscard]] float unit_px() const { return band_px / 10; }
     float band_px;       ///< How far the boundary may lie from the expected one.
     int window_half_px;  ///< Half a colour window's side.
     int window_step_px;  ///< Distance between windows along the boundary.

@@ -16,8 +16,7 @@
 namespace weft {
 namespace {
 
-constexpr float kCell_px = 4;     // of 854×480
-constexpr float kBandUnits = 10;  // px of 854×480 in a band
+constexpr float kCell_px = 4;  // of 854×480
 constexpr float kDisagree = 0.05f;
 constexpr float kShareWeight = 0.2f, kLikeWeight = 0.4f,
                 kBesideWeight = 0.5f;  // weights; motion has 1
@@ -25,8 +24,8 @@ constexpr float kShareWeight = 0.2f, kLikeWeight = 0.4f,
 constexpr float kSameBeside = 6, kSameMoved = 12, kSameSide = 1.5f;
 
 Size grid_of(Size frame) {
-    const float unit_px = RefineScale(frame).band_px / kBandUnits;
-    const int cell = std::max(2, static_cast<int>(std::lround(kCell_px * unit_px)));
+    const float cell_px = kCell_px * RefineScale(frame).unit_px();
+    const int cell = std::max(2, static_cast<int>(std::lround(cell_px)));
     return {std::max(1, frame.width / cell), std::max(1, frame.height / cell)};
 }
 
@@ -50,11 +49,11 @@ ImageU8x3 lab_cells(ViewU8x3 picture, Size grid) {
     return out;
 }
 
-// The share of each cell that is more than `limit`.
-ImageF1 cells_above(ViewU8x1 matte, int limit, Size grid) {
+// The share of each cell's pixels that are set.
+ImageF1 shares_of(const cv::Mat& set, Size grid) {
     ImageF1 out(grid);
     cv::Mat cells = header_of(out, CV_32F), shares;
-    cv::resize(as_mat(matte) > limit, shares, as_cv(grid), 0, 0, cv::INTER_AREA);
+    cv::resize(set, shares, as_cv(grid), 0, 0, cv::INTER_AREA);
     shares.convertTo(cells, CV_32F, 1.0 / 255);
     return out;
 }
@@ -115,30 +114,32 @@ float alike(const std::uint8_t* a, const std::uint8_t* b, float scale) {
 
 void JointSides::remember(ViewU8x3 picture, ViewU8x1 matte) {
     const Size grid = grid_of(picture.size());
-    keys_.emplace_back(lab_cells(picture, grid), cells_above(matte, 127, grid));
+    keys_.emplace_back(lab_cells(picture, grid), shares_of(as_mat(matte) > 127, grid));
 }
 
 JointSides::Cells JointSides::cells_of(const JointFrame& in, Size grid) {
-    const ImageF1 before = cells_above(in.before, 127, grid);
-    const ImageF1 after = cells_above(in.after, 127, grid);
+    const ImageF1 before = shares_of(as_mat(in.before) > 127, grid);
+    const ImageF1 after = shares_of(as_mat(in.after) > 127, grid);
     const ImageF1 shares = in.shares.empty() ? ImageF1() : mean_cells(in.shares, grid);
-    Cells out{lab_cells(in.picture, grid), ImageF1(grid), Image<std::int32_t, 1>(grid)};
-    std::vector<Node> nodes;
+    Cells out{lab_cells(in.picture, grid), ImageF1(grid), ImageF1(grid, 1.0f),
+              Image<std::int32_t, 1>(grid)};
+    if (!in.hidden.empty()) out.seen = shares_of(as_mat(in.hidden) == 0, grid);
+    Open open_here{pull_.size(), {}};
     for (int y = 0; y < grid.height; ++y) {
         for (int x = 0; x < grid.width; ++x) {
             const float a = before.at(x, y), b = after.at(x, y);
             const float share = shares.empty() ? 0 : shares.at(x, y);
             const bool open = share > 0 && share < 1 && std::abs(a - b) > kDisagree;
             out.inside.at(x, y) = open || shares.empty() ? (a + b) / 2 : a + share * (b - a);
-            out.node.at(x, y) = -1;
+            out.node.at(x, y) = open ? static_cast<std::int32_t>(pull_.size()) : -1;
             if (!open) continue;
-            out.node.at(x, y) = static_cast<std::int32_t>(pull_.size());
-            nodes.push_back({out.node.at(x, y), y * grid.width + x});
+            open_here.cells.push_back(y * grid.width + x);
             pull_.push_back(kShareWeight);
             target_.push_back(kShareWeight * (a + share * (b - a)));
         }
     }
-    if (!nodes.empty()) nodes_[in.frame] = std::move(nodes);
+    out.any_open = !open_here.cells.empty();
+    if (out.any_open) open_[in.frame] = std::move(open_here);
     return out;
 }
 
@@ -171,7 +172,7 @@ void JointSides::add_links(const Cells& cells) {
 void JointSides::add_motion(const JointFrame& in, const Cells& cells) {
     const Size grid = cells.inside.size();
     if (in.last_from_this == nullptr || last_.inside.size() != grid) return;
-    const ImageF1 hidden = in.hidden.empty() ? ImageF1() : cells_above(in.hidden, 0, grid);
+    if (!cells.any_open && !last_.any_open) return;
     const CellMotion motion = cell_motion(*in.last_from_this, grid);
     for (int y = 0; y < grid.height; ++y) {
         for (int x = 0; x < grid.width; ++x) {
@@ -181,9 +182,8 @@ void JointSides::add_motion(const JointFrame& in, const Cells& cells) {
                 continue;
             const int a = cells.node.at(x, y), b = last_.node.at(there.x, there.y);
             if (a < 0 && b < 0) continue;
-            const float seen = hidden.empty() ? 1 : 1 - hidden.at(x, y);
             tie(a, cells.inside.at(x, y), b, last_.inside.at(there.x, there.y),
-                seen * motion.reliable.at(x, y) *
+                cells.seen.at(x, y) * motion.reliable.at(x, y) *
                     alike(cells.lab.pixel(x, y), last_.lab.pixel(there.x, there.y), kSameMoved));
         }
     }
@@ -191,40 +191,35 @@ void JointSides::add_motion(const JointFrame& in, const Cells& cells) {
 
 // What is open is more likely of the side of a keyframe on which something looks more like it:
 // inside anywhere, or outside not too far away.
-void JointSides::add_likeness(const JointFrame& in, const Cells& cells) {
+void JointSides::add_likeness(int frame, const Cells& cells) {
     constexpr int kNear_cells = 12;
-    const auto found = nodes_.find(in.frame);
-    if (found == nodes_.end()) return;
-    const std::vector<Node>& nodes = found->second;
+    if (!cells.any_open) return;
+    const Open& open = open_.at(frame);
     const Size grid = cells.inside.size();
-    const ImageF1 hidden = in.hidden.empty() ? ImageF1() : cells_above(in.hidden, 0, grid);
     Recti bounds;
-    std::vector<std::int32_t> places;
-    for (const Node& node : nodes) {
-        const Vec2i at(node.cell % grid.width, node.cell / grid.width);
+    for (const std::int32_t cell : open.cells) {
+        const Vec2i at(cell % grid.width, cell / grid.width);
         bounds = bounds.united({at.x, at.y, at.x + 1, at.y + 1});
-        places.push_back(node.cell);
     }
     const Recti near = bounds.grown(kNear_cells).intersected(rect_of(grid));
     constexpr float kNone = std::numeric_limits<float>::infinity();
-    std::vector<SideMisses> least(nodes.size(), {kNone, kNone});
+    std::vector<SideMisses> least(open.cells.size(), {kNone, kNone});
     for (const KeyPatches& key : keys_) {
-        const std::vector<SideMisses> here = key.misses(cells.lab, places, near);
+        const std::vector<SideMisses> here = key.misses(cells.lab, open.cells, near);
         for (std::size_t k = 0; k < here.size(); ++k) {
             least[k].inside = std::min(least[k].inside, here[k].inside);
             least[k].outside = std::min(least[k].outside, here[k].outside);
         }
     }
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
+    for (std::size_t k = 0; k < open.cells.size(); ++k) {
         if (std::isinf(least[k].inside) || std::isinf(least[k].outside)) continue;
-        const int cell = nodes[k].cell;
-        const float seen = hidden.empty() ? 1 : 1 - hidden.at(cell % grid.width, cell / grid.width);
+        const int cell = open.cells[k];
+        const float seen = cells.seen.at(cell % grid.width, cell / grid.width);
         const float lead = (least[k].inside - least[k].outside) / kSameSide;
         const float side = 1 / (1 + std::exp(std::clamp(lead, -30.0f, 30.0f)));
         const float weight = kLikeWeight * seen * std::abs(2 * side - 1);
-        const auto node = static_cast<std::size_t>(nodes[k].node);
-        pull_[node] += weight;
-        target_[node] += weight * side;
+        pull_[open.first + k] += weight;
+        target_[open.first + k] += weight * side;
     }
 }
 
@@ -232,7 +227,7 @@ void JointSides::add(const JointFrame& in) {
     Cells cells = cells_of(in, grid_of(in.picture.size()));
     add_links(cells);
     add_motion(in, cells);
-    add_likeness(in, cells);
+    add_likeness(in.frame, cells);
     last_ = std::move(cells);
 }
 
@@ -271,15 +266,16 @@ void JointSides::decide() {
 
 ImageF1 JointSides::inside(int frame, ViewU8x1 before, ViewU8x1 after) const {
     const Size grid = grid_of(before.size());
-    ImageF1 cells = cells_above(before, 127, grid);
-    const ImageF1 other = cells_above(after, 127, grid);
+    ImageF1 cells = shares_of(as_mat(before) > 127, grid);
+    const ImageF1 other = shares_of(as_mat(after) > 127, grid);
     for (int y = 0; y < grid.height; ++y)
         for (int x = 0; x < grid.width; ++x)
             cells.at(x, y) = (cells.at(x, y) + other.at(x, y)) / 2;
-    if (const auto found = nodes_.find(frame); found != nodes_.end() && !inside_.empty()) {
-        for (const auto& [node, cell] : found->second)
-            cells.at(cell % grid.width, cell / grid.width) =
-                inside_[static_cast<std::size_t>(node)];
+    if (const auto found = open_.find(frame); found != open_.end() && !inside_.empty()) {
+        const Open& open = found->second;
+        for (std::size_t k = 0; k < open.cells.size(); ++k)
+            cells.at(open.cells[k] % grid.width, open.cells[k] / grid.width) =
+                inside_[open.first + k];
     }
     ImageF1 out(before.size());
     cv::Mat wide = header_of(out, CV_32F);

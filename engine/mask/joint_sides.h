@@ -1,6 +1,7 @@
 #pragma once
 // Decides between two walks that disagree, over all frames between their keyframes at once.
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -46,8 +47,10 @@ class JointSides {
     [[nodiscard]] ImageF1 inside(int frame, ViewU8x1 before, ViewU8x1 after) const;
 
   private:
-    struct Node {
-        std::int32_t node, cell;
+    // The cells of a frame that are open, row by row; their nodes follow each other.
+    struct Open {
+        std::size_t first = 0;
+        std::vector<std::int32_t> cells;
     };
     struct Link {
         int a, b;
@@ -57,18 +60,20 @@ class JointSides {
     struct Cells {
         ImageU8x3 lab;
         ImageF1 inside;
+        ImageF1 seen;                 ///< The share that nothing in front hides.
         Image<std::int32_t, 1> node;  ///< −1: known.
+        bool any_open = false;
     };
 
     [[nodiscard]] Cells cells_of(const JointFrame& in, Size grid);
     void add_links(const Cells& cells);
     void add_motion(const JointFrame& in, const Cells& cells);
-    void add_likeness(const JointFrame& in, const Cells& cells);
+    void add_likeness(int frame, const Cells& cells);
     void tie(int a, float a_inside, int b, float b_inside, float weight);
 
     std::vector<KeyPatches> keys_;
     Cells last_;
-    std::map<int, std::vector<Node>> nodes_;  // by frame
+    std::map<int, Open> open_;  // by frame
     std::vector<Link> links_;
     std::vector<float> pull_, target_;  // by node: weight of what is known, and that times its side
     std::vector<float> inside_;         // by node, once decided

@@ -33,6 +33,7 @@
 #include "engine/mask/surface_return.h"
 #include "engine/mask/taken_over.h"
 #include "engine/mask/uncovered.h"
+#include "engine/motion/held_frames.h"
 
 namespace weft {
 namespace {
@@ -40,7 +41,6 @@ namespace {
 // Of the new frame, only what lies well outside the expected boundary counts: new background.
 constexpr float kUnsureClearancePx = 6;
 constexpr float kFarBands = 0.8f;      // motion that leads so far outside is believed
-constexpr float kBandUnits = 10;       // pixels of 854×480 in a band
 constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
 
 }  // namespace
@@ -91,7 +91,6 @@ struct MatteWalker::State {
     RefinedBoundary find_boundary(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
                                   const FlowField& prev_from_cur, const Recti& area,
                                   const Matte& covered);
-    [[nodiscard]] float unit_px() const { return scale.band_px / kBandUnits; }
     [[nodiscard]] const ImageF1& seen_phi() const { return seen.empty() ? phi : seen; }
 };
 
@@ -184,13 +183,13 @@ RefinedBoundary MatteWalker::State::find_boundary(ViewU8x3 part, const Transport
         plate.odds(part, shape.phi, surface_difference(growth, palette, scale.band_px), area);
     limit_growth(wide, growth, palette, kFarBands * scale.band_px);
     judge_uncovered(part, shape.uncovered, colors, palette, matched, wide);
-    add_sides(sides.advance({phi, prev_from_cur, shape.outside_motion, area, unit_px()}), shape.phi,
-              matched, wide);
-    add_odds(
-        departure.advance({phi, prev_from_cur, shape.prev_from_cur, part, frame, area, unit_px()}),
-        palette, part, area, matched, wide);
+    add_sides(sides.advance({phi, prev_from_cur, shape.outside_motion, area, scale.unit_px()}),
+              shape.phi, matched, wide);
+    add_odds(departure.advance(
+                 {phi, prev_from_cur, shape.prev_from_cur, part, frame, area, scale.unit_px()}),
+             palette, part, area, matched, wide);
     add_newcomers(newcomers.advance({part, frame, phi, prev_from_cur, shape.outside_motion,
-                                     shape.uncovered.appearing, shape.phi, area, unit_px()}),
+                                     shape.uncovered.appearing, shape.phi, area, scale.unit_px()}),
                   matched, wide);
     if (!covered.empty()) keep_hidden(matched, wide, shape.phi, covered, origin);
     return refine_boundary(part, shape.phi, colors, matched, wide, scale, options.steadiness);
@@ -221,8 +220,8 @@ Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, Vi
 // place of the little that was found.
 void MatteWalker::State::take_back(ViewU8x3 now, const FlowField& prev_from_cur, ImageF1& distance,
                                    Matte& matte) {
-    const MotionReturnInput evidence{now,     distance, prev_from_cur, departure.departs(),
-                                     palette, unit_px()};
+    const MotionReturnInput evidence{now,     distance,       prev_from_cur, departure.departs(),
+                                     palette, scale.unit_px()};
     Matte returned = hidden.returned(now, distance);
     bool whole = returned.empty();
     if (whole) returned = lost.returned(evidence);
@@ -281,7 +280,7 @@ void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_c
                                       ViewF2 background, ImageF1& distance, Matte& matte) {
     const Matte islands =
         left_behind.advance({now, distance, phi, newcomers.entered(), prev_from_cur, background,
-                             key_frame, key_phi, palette, key_from_prev, unit_px()});
+                             key_frame, key_phi, palette, key_from_prev, scale.unit_px()});
     if (!islands.empty())
         take_over(inside_without(distance, islands), scale.limit_px, distance, matte);
 }
@@ -329,10 +328,11 @@ bool MatteWalker::has_soft_edges() const {
 // The walk goes by what was meant, not by what was painted loosely, as soon as something moves.
 void MatteWalker::begin_again(ViewU8x3 next, const FlowField& measured, bool hides) {
     State& s = *state_;
-    if (!s.at_key || is_held(s.frame, next)) return;
+    const Matte all(s.frame.size(), 255);
+    if (!s.at_key || same_drawing({s.frame, all, {}}, {next, all, {}})) return;
     s.at_key = false;
     const Matte meant =
-        hides ? Matte() : painted_sides({s.frame, s.last, next, measured, s.unit_px()});
+        hides ? Matte() : painted_sides({s.frame, s.last, next, measured, s.scale.unit_px()});
     if (meant.empty()) return;
     *this = MatteWalker(s.frame, meant, s.options);
     state_->at_key = false;
@@ -356,7 +356,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     if (area.empty()) {  // the surface has left the frame
         s.confidence = 0;
         s.confirmed.clear();
-        s.departure.advance({s.phi, prev_from_cur, {}, {}, {}, {}, s.unit_px()});
+        s.departure.advance({s.phi, prev_from_cur, {}, {}, {}, {}, s.scale.unit_px()});
         s.sides = {};
         s.newcomers = {};
     } else {

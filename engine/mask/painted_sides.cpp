@@ -286,17 +286,4 @@ Matte painted_sides(const PaintedInput& in) {
     return corrected;
 }
 
-bool is_held(ViewU8x3 frame, ViewU8x3 next) {
-    constexpr int kBlock_px = 8;
-    constexpr double kMost_codes = 2;  // of a block; half a pixel of a moving line leaves ten
-    cv::Mat blocks;
-    cv::absdiff(as_mat(frame), as_mat(next), blocks);
-    const cv::Size size((blocks.cols + kBlock_px - 1) / kBlock_px,
-                        (blocks.rows + kBlock_px - 1) / kBlock_px);
-    cv::resize(blocks, blocks, size, 0, 0, cv::INTER_AREA);
-    double most = 0;
-    cv::minMaxLoc(blocks.reshape(1), nullptr, &most);
-    return most < kMost_codes;
-}
-
 }  // namespace weft

@@ -25,8 +25,4 @@ struct PaintedInput {
 /// deterministic.
 [[nodiscard]] Matte painted_sides(const PaintedInput& in);
 
-/// Whether two pictures of one size are the same but for what a codec leaves: drawn animation holds
-/// a drawing for two or three frames, and nothing moves that would tell sides. Pure.
-[[nodiscard]] bool is_held(ViewU8x3 frame, ViewU8x3 next);
-
 }  // namespace weft

@@ -76,7 +76,7 @@ TransportedShape measure_motion(ViewF1 prev_phi, const FlowField& prev_from_cur,
     TransportedShape shape;
     shape.consistency = beside > 0 ? trusted / beside : 0.0f;
     const ViewF2 motion = prev_from_cur.d.view().crop(area);
-    const float unit_px = scale.band_px / 10;
+    const float unit_px = scale.unit_px();
     shape.prev_from_cur =
         spread_motion(motion, inside, total > 0 ? mean / total : Vec2(0), unit_px);
     shape.outside_motion = spread_motion(motion, around, Vec2(0), unit_px);

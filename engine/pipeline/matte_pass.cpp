@@ -102,6 +102,24 @@ std::vector<std::vector<Job>> walks_of(std::vector<Job> jobs) {
 
 constexpr auto kAll = [](const Job&) { return true; };
 
+// Whether the motion is lost everywhere, too: the picture of a fast pan is found again in places.
+bool is_cut(const SweepFrame& at) {
+    constexpr double kFound = 0.35;
+    if (!at.cut || !at.prev_from_cur) return false;
+    const Matte& valid = at.prev_from_cur->get().valid;
+    std::int64_t found = 0;
+    for (int y = 0; y < valid.height(); ++y)
+        found += std::count_if(valid.row(y), valid.row(y) + valid.width(),
+                               [](std::uint8_t v) { return v != 0; });
+    return static_cast<double>(found) < kFound * valid.width() * valid.height();
+}
+
+std::shared_ptr<const SceneFrame> scene_of(const SweepFrame& at) {
+    static const FlowField kNone;
+    return std::make_shared<const SceneFrame>(
+        scene_frame(at.views->followed(), at.prev_from_cur ? at.prev_from_cur->get() : kNone));
+}
+
 // Begins a job's walk with a painted matte of the plate's size.
 void begin(Job& job, const MatteStop& at, const Matte& painted, const Matte& front) {
     Matte smaller;
@@ -229,8 +247,12 @@ Status propagate(const PassContext& context, AnalysisStore& store, std::vector<J
         Status (*)(const PassContext&, AnalysisStore&, std::vector<Job>&, const MatteStop&);
     const auto walk_mattes = [&](const SweepOptions& options, Visit visit) {
         return sweep(context, options, [&](const SweepFrame& seen) -> Status {
-            return stop_at(seen,
-                           [&](const MatteStop& at) { return visit(context, store, jobs, at); });
+            return stop_at(seen, [&](const MatteStop& there) {
+                MatteStop at = there;
+                at.cut = is_cut(seen);
+                at.scene = scene_of(seen);
+                return visit(context, store, jobs, at);
+            });
         });
     };
     const FrameSpan there = visited(jobs, &Job::forward), back = visited(jobs, &Job::collecting);

@@ -1,7 +1,5 @@
 #include "engine/pipeline/matte_stop.h"
 
-#include <algorithm>
-#include <cstdint>
 #include <utility>
 
 #include "engine/mask/plate_edge.h"
@@ -10,27 +8,6 @@
 #include "engine/pipeline/region_zones.h"
 
 namespace weft {
-namespace {
-
-// Whether the motion is lost everywhere, too: the picture of a fast pan is found again in places.
-bool is_cut(const SweepFrame& at) {
-    constexpr double kFound = 0.35;
-    if (!at.cut || !at.prev_from_cur) return false;
-    const Matte& valid = at.prev_from_cur->get().valid;
-    std::int64_t found = 0;
-    for (int y = 0; y < valid.height(); ++y)
-        found += std::count_if(valid.row(y), valid.row(y) + valid.width(),
-                               [](std::uint8_t v) { return v != 0; });
-    return static_cast<double>(found) < kFound * valid.width() * valid.height();
-}
-
-std::shared_ptr<const SceneFrame> scene_of(const SweepFrame& at) {
-    static const FlowField kNone;
-    return std::make_shared<const SceneFrame>(
-        scene_frame(at.views->followed(), at.prev_from_cur ? at.prev_from_cur->get() : kNone));
-}
-
-}  // namespace
 
 const Matte& MatteStop::reduce(const Matte& matte, Matte& smaller) const {
     if (matte.empty() || matte.size() == walked.size()) return matte;
@@ -44,8 +21,8 @@ Status stop_at(const SweepFrame& at, const std::function<Status(const MatteStop&
     const FrameMotion larger([&] { return resized(at.prev_from_cur->get(), size); });
     const bool as_followed = at.views->followed().size() == size;
     const FrameMotion* motion = as_followed ? at.prev_from_cur.get() : &larger;
-    return visit({at.frame, plate, smaller.empty() ? plate : smaller,
-                  at.prev_from_cur ? motion : nullptr, is_cut(at), scene_of(at)});
+    return visit(
+        {at.frame, plate, smaller.empty() ? plate : smaller, at.prev_from_cur ? motion : nullptr});
 }
 
 Expected<Matte> painted_matte(const ShotSource& source, const MatteStretch& job, int frame) {

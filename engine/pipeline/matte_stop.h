@@ -16,8 +16,8 @@ struct MatteStop {
     const ImageU8x3& plate;   ///< Of the plate's size.
     const ImageU8x3& walked;  ///< The same, or smaller.
     const FrameMotion* prev_from_cur = nullptr;
-    bool cut = false;  ///< A new scene begins with it.
-    std::shared_ptr<const SceneFrame> scene = {};
+    bool cut = false;  ///< A new scene begins with it, as a walk sees it;
+    std::shared_ptr<const SceneFrame> scene = {};  ///< and what it shows of the scene.
 
     /// `matte` of the plate's size as it is walked, which is kept in `smaller` if it is reduced.
     [[nodiscard]] const Matte& reduce(const Matte& matte, Matte& smaller) const;
@@ -27,7 +27,7 @@ struct MatteStop {
     }
 };
 
-/// Calls `visit` with what a sweep comes to.
+/// Calls `visit` with what a sweep comes to, without `cut` and `scene`.
 [[nodiscard]] Status stop_at(const SweepFrame& at,
                              const std::function<Status(const MatteStop&)>& visit);
 

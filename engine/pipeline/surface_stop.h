@@ -13,9 +13,9 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/work_thread.h"
+#include "engine/motion/held_frames.h"
 #include "engine/pipeline/surface_job.h"
 #include "engine/pipeline/sweep.h"
-#include "engine/temporal/held_frames.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "engine/temporal/held_frames.h"
+#include "engine/motion/held_frames.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-constexpr int kBlock = 8;
+constexpr int kHeldBlock = 8;
 constexpr std::int64_t kLeastPixels = 64;
 // A block with fewer pixels of the surface is not judged by itself, because one pixel is not
 // reliable.
@@ -29,8 +29,8 @@ int levels_apart(const std::uint8_t* a, const std::uint8_t* b) {
 }
 
 void add_block(const HoldView& a, const HoldView& b, int x0, int y0, Difference& out) {
-    const int x1 = std::min(x0 + kBlock, a.display.width());
-    const int y1 = std::min(y0 + kBlock, a.display.height());
+    const int x1 = std::min(x0 + kHeldBlock, a.display.width());
+    const int y1 = std::min(y0 + kHeldBlock, a.display.height());
     std::int64_t sum = 0;
     int count = 0;
     for (int y = y0; y < y1; ++y) {
@@ -61,8 +61,8 @@ Image<std::remove_const_t<T>, C> owned(ImageView<T, C> view) {
 
 bool same_drawing(const HoldView& a, const HoldView& b, const HoldLimits& limits) {
     Difference d;
-    for (int y = 0; y < a.display.height(); y += kBlock) {
-        for (int x = 0; x < a.display.width(); x += kBlock) {
+    for (int y = 0; y < a.display.height(); y += kHeldBlock) {
+        for (int x = 0; x < a.display.width(); x += kHeldBlock) {
             add_block(a, b, x, y, d);
             if (d.worst_block > limits.block) return false;
         }

@@ -1,4 +1,4 @@
-#include "engine/temporal/held_frames.h"
+#include "engine/motion/held_frames.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
