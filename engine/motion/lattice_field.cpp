@@ -81,17 +81,21 @@ AffineMap mean_affine(const LatticeField& field) {
     return out;
 }
 
-// Solves p + field(p) = `target` by Newton's method, starting from `start` or the solution for
-// `whole`. Returns the nearest of all places that were tried, because a field that folds over has
-// no root everywhere.
+// Solves p + field(p) = `target` by Newton's method, starting from the solution for `whole`.
+// Returns the nearest of all places that were tried and of `start`, because a field that folds over
+// has no root everywhere. `start` is left out where it has run away, to infinity or NaN.
 Vec2 newton_root(const LatticeField& field, Vec2 target, Vec2 start, const AffineMap& whole) {
     const auto residual = [&](Vec2 p) { return target - (p + field.at(p)); };
     constexpr float kFlat = 1e-3f;
-    Vec2 best = start;
-    float least = glm::length(residual(start));
+    Vec2 best = target;
+    float least = glm::length(residual(target));
+    if (const float miss = glm::length(residual(start)); miss < least) {
+        best = start;
+        least = miss;
+    }
     Vec2 p = std::abs(glm::determinant(whole.linear)) > kFlat
                  ? glm::inverse(whole.linear) * (target - whole.offset)
-                 : start;
+                 : best;
     const float h = 0.25f * static_cast<float>(field.spacing());
     const float longest = 8.0f * static_cast<float>(field.spacing());
     for (int k = 0; k < 16; ++k) {

@@ -183,6 +183,24 @@ TEST(LatticeField, AnInverseOfAWholeTurnLeadsBackToo) {
     }
 }
 
+// A torn field has slopes at which the iteration runs away to infinity.
+TEST(LatticeField, AnInverseOfATornFieldIsFiniteAndNeverWorseThanStandstill) {
+    Rng rng(3);
+    const LatticeField field = field_of({80, 60}, 8, [&](Vec2) {
+        const float x = static_cast<float>(rng.uniform());
+        return 4e4f * (Vec2(x, static_cast<float>(rng.uniform())) - Vec2(0.5f));
+    });
+    const LatticeField back = inverse(field);
+    for (int j = 0; j < back.nodes().height(); ++j) {
+        for (int i = 0; i < back.nodes().width(); ++i) {
+            const Vec2 target = back.node_position(i, j), p = target + back.node(i, j);
+            EXPECT_LE(glm::length(p + field.at(p) - target),
+                      glm::length(field.at(target)) * 1.001f + 0.1f)
+                << i << "," << j;
+        }
+    }
+}
+
 TEST(LatticeField, AnInverseLeadsBack) {
     LatticeField field({320, 200}, 8);
     for (int j = 0; j < field.nodes().height(); ++j) {
