@@ -3,36 +3,75 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <vector>
 
 #include "engine/core/smooth_step.h"
 
 namespace weft {
 namespace {
 
-constexpr float kLimit = 3.0f;  // times
-constexpr float kPull = 0.33f;  // per frame, at twice the limit
+// The limits: how much longer than wide a round spot of the texture becomes, and how much larger or
+// smaller, beside the whole surface. A ball shows the first where it is seen at 24°.
+constexpr float kMostDrawnOut = 2.2f, kMostScaled = 1.5f;
+constexpr float kDrawnOutAfter = 1.5f,
+                kScaledAfter = 1.2f;  // so that it is not past them again at once
+constexpr float kPull = 0.7f;         // of the way back, per frame
 
 Vec2 landing(const LatticeField& field, int i, int j) {
     return field.node_position(i, j) + field.node(i, j);
 }
 
-// The larger of the stretch and the squeeze at an inner node: singular values of the Jacobian.
-float stretch_at(const LatticeField& field, int i, int j) {
+// The Jacobian at an inner node as turn(after) · diag(largest, smallest) · turn(before). `smallest`
+// is below 0 where the field folds over.
+struct LocalShape {
+    float largest, smallest, before, after;
+};
+
+LocalShape shape_at(const LatticeField& field, int i, int j) {
     const float step = 2.0f * static_cast<float>(field.spacing());
     const Vec2 x = (landing(field, i + 1, j) - landing(field, i - 1, j)) / step;
     const Vec2 y = (landing(field, i, j + 1) - landing(field, i, j - 1)) / step;
-    const float sum = x.x * x.x + x.y * x.y + y.x * y.x + y.y * y.y;
-    const float det = x.x * y.y - x.y * y.x;
-    const float root = std::sqrt(std::max(0.0f, sum * sum - 4 * det * det));
-    const float largest = std::sqrt(0.5f * (sum + root));
-    const float smallest = det <= 0 ? 0.0f : std::sqrt(std::max(0.0f, 0.5f * (sum - root)));
-    return std::max(largest, 1.0f / std::max(smallest, 1e-3f));
+    const Vec2 even(0.5f * (x.x + y.y), 0.5f * (x.y - y.x));
+    const Vec2 odd(0.5f * (x.x - y.y), 0.5f * (x.y + y.x));
+    const float turn = std::atan2(even.y, even.x), mirror = std::atan2(odd.y, odd.x);
+    const float a = std::hypot(even.x, even.y), b = std::hypot(odd.x, odd.y);
+    return {a + b, a - b, 0.5f * (turn - mirror), 0.5f * (turn + mirror)};
+}
+
+float scale_of(const LocalShape& shape) {
+    return std::sqrt(shape.largest * std::max(shape.smallest, 1e-4f * shape.largest));
+}
+
+// In units of the limits: above 1 it is past one of them.
+float stretch_of(const LocalShape& shape, float whole) {
+    const float scale = scale_of(shape) / whole;
+    const float drawn_out = shape.largest / std::max(shape.smallest, 1e-4f * shape.largest);
+    return std::max(drawn_out / kMostDrawnOut, std::max(scale, 1 / scale) / kMostScaled);
 }
 
 bool inside(const LatticeField& field, ViewU8x1 visible, int i, int j) {
     const Vec2 p = field.node_position(i, j);
     const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
     return rect_of(visible.size()).contains(x, y) && visible.at(x, y) >= 128;
+}
+
+// How much larger or smaller all of the surface is on the reference frame: of both singular values
+// the one nearer to 1 if they lie on one side of it, else 1; the median of what is seen, as far as
+// `range` allows. What comes near the camera takes its texture with it.
+float whole_scale(const LatticeField& field, ViewU8x1 visible, ScaleRange range) {
+    std::vector<float> scales;
+    for (int j = 1; j + 1 < field.nodes().height(); ++j) {
+        for (int i = 1; i + 1 < field.nodes().width(); ++i) {
+            if (!inside(field, visible, i, j)) continue;
+            const LocalShape shape = shape_at(field, i, j);
+            if (shape.smallest > 0)
+                scales.push_back(std::max(shape.smallest, std::min(1.0f, shape.largest)));
+        }
+    }
+    if (scales.empty()) return 1;
+    const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
+    std::nth_element(scales.begin(), middle, scales.end());
+    return std::clamp(*middle, range.least, range.most);
 }
 
 // q ≈ a p + b over complex numbers: rotation, scale and translation by least squares.
@@ -44,7 +83,8 @@ struct Similarity {
     }
 };
 
-Similarity fit(const LatticeField& field, const ImageF1& weight) {
+// Its scale is 2/3 to 3/2 of `whole`.
+Similarity fit(const LatticeField& field, const ImageF1& weight, double whole) {
     double n = 0, norm = 0;
     std::complex<double> p_sum, q_sum, cross;
     for (int j = 0; j < weight.height(); ++j) {
@@ -65,8 +105,8 @@ Similarity fit(const LatticeField& field, const ImageF1& weight) {
     const double spread = norm - std::norm(p_sum) / n;
     if (spread > 1e-6) out.a = (cross - std::conj(p_sum) * q_sum / n) / spread;
     const double scale = std::abs(out.a);
-    out.a = scale > 1e-6 ? out.a * (std::clamp(scale, 2.0 / 3.0, 1.5) / scale)
-                         : std::complex<double>(1, 0);
+    out.a = scale > 1e-6 ? out.a * (std::clamp(scale, whole / 1.2, whole * 1.2) / scale)
+                         : std::complex<double>(whole, 0);
     out.b = (q_sum - out.a * p_sum) / n;
     return out;
 }
@@ -92,18 +132,89 @@ ImageF1 spread(const ImageF1& marks, int reach) {
     return out;
 }
 
+// The field's slopes at an inner node with both singular values brought within the limits.
+struct Slopes {
+    Vec2 along_x, along_y;
+};
+
+Slopes limited_slopes(const LocalShape& shape, float whole) {
+    float scale = scale_of(shape) / whole;
+    if (std::max(scale, 1 / scale) > kMostScaled)
+        scale = scale > 1 ? kScaledAfter : 1 / kScaledAfter;
+    float drawn_out = shape.largest / std::max(shape.smallest, 1e-4f * shape.largest);
+    if (drawn_out > kMostDrawnOut) drawn_out = kDrawnOutAfter;
+    const float half = std::sqrt(drawn_out);
+    const float large = whole * scale * half, small = whole * scale / half;
+    const Vec2 before(std::cos(shape.before), std::sin(shape.before));
+    const Vec2 after(std::cos(shape.after), std::sin(shape.after));
+    const auto turned = [&](Vec2 v) {
+        const Vec2 u(large * (before.x * v.x - before.y * v.y),
+                     small * (before.y * v.x + before.x * v.y));
+        return Vec2(after.x * u.x - after.y * u.y, after.y * u.x + after.x * u.y);
+    };
+    return {turned({1, 0}), turned({0, 1})};
+}
+
+// Where the nodes with `free` > 0 come to lie if every step between neighbours is as `slopes` say
+// and all other nodes stay (least squares, by successive over-relaxation; after Sorkine & Alexa
+// 2007).
+ImageF2 laid_by(const Image<Slopes, 1>& slopes, const ImageF1& free, const LatticeField& field) {
+    constexpr int kSweeps = 120;
+    constexpr float kStay = 5e-4f;  // beside one neighbour
+    constexpr float kOver = 1.9f;
+    const Size size = free.size();
+    const float half_step = 0.5f * static_cast<float>(field.spacing());
+    ImageF2 out(size);
+    for (int j = 0; j < size.height; ++j) {
+        for (int i = 0; i < size.width; ++i) {
+            const Vec2 to = landing(field, i, j);
+            out.at(i, j, 0) = to.x;
+            out.at(i, j, 1) = to.y;
+        }
+    }
+    const auto relax = [&](int i, int j) {
+        const Slopes& here = slopes.at(i, j);
+        Vec2 sum = kStay * landing(field, i, j);
+        float weight = kStay;
+        const auto add = [&](int u, int v) {
+            if (u < 0 || v < 0 || u >= size.width || v >= size.height) return;
+            const Slopes& there = slopes.at(u, v);
+            const Vec2 way = u != i ? static_cast<float>(i - u) * (here.along_x + there.along_x)
+                                    : static_cast<float>(j - v) * (here.along_y + there.along_y);
+            sum += Vec2(out.at(u, v, 0), out.at(u, v, 1)) + half_step * way;
+            weight += 1;
+        };
+        add(i - 1, j);
+        add(i + 1, j);
+        add(i, j - 1);
+        add(i, j + 1);
+        out.at(i, j, 0) += kOver * (sum.x / weight - out.at(i, j, 0));
+        out.at(i, j, 1) += kOver * (sum.y / weight - out.at(i, j, 1));
+    };
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        for (int j = 0; j < size.height; ++j) {
+            for (int i = 0; i < size.width; ++i) {
+                if (free.at(i, j) > 0) relax(i, j);
+            }
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
-std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 visible) {
+std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 visible,
+                                            ScaleRange range) {
     constexpr float kMuch = 0.2f;    // of the surface
     constexpr float kEnough = 0.7f;  // of the limit, so that it is not reached again at once
     const Size size = field.nodes().size();
     ImageF1 excess(size), weight(size);
+    const float whole = whole_scale(field, visible, range);
     int seen = 0, past = 0;
     for (int j = 1; j + 1 < size.height; ++j) {
         for (int i = 1; i + 1 < size.width; ++i) {
             if (!inside(field, visible, i, j)) continue;
-            const bool over = stretch_at(field, i, j) > kLimit;
+            const bool over = stretch_of(shape_at(field, i, j), whole) > 1;
             excess.at(i, j) = over ? 1.0f : 0.0f;
             weight.at(i, j) = over ? 0.02f : 1.0f;
             ++seen;
@@ -111,7 +222,7 @@ std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 
         }
     }
     if (seen == 0 || static_cast<float>(past) < kMuch * static_cast<float>(seen)) return {};
-    const Similarity target = fit(field, weight);
+    const Similarity target = fit(field, weight, whole);
     for (int reach = 4; reach <= 64; reach *= 2) {
         const ImageF1 pull = reach < 64 ? spread(excess, reach) : ImageF1(size, 1.0f);
         LatticeField out = field;
@@ -125,10 +236,11 @@ std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 
         float most = 0;
         for (int j = 1; j + 1 < size.height; ++j) {
             for (int i = 1; i + 1 < size.width; ++i) {
-                if (inside(out, visible, i, j)) most = std::max(most, stretch_at(out, i, j));
+                if (inside(out, visible, i, j))
+                    most = std::max(most, stretch_of(shape_at(out, i, j), whole));
             }
         }
-        if (most <= kEnough * kLimit || reach == 64) return out;
+        if (most <= kEnough || reach == 64) return out;
     }
     return {};
 }
@@ -139,7 +251,7 @@ LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible) {
         for (int i = 0; i < weight.width(); ++i)
             weight.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
     }
-    const Similarity target = fit(field, weight);
+    const Similarity target = fit(field, weight, 1);
     LatticeField out(field.full_size(), field.spacing());
     for (int j = 0; j < weight.height(); ++j) {
         for (int i = 0; i < weight.width(); ++i) {
@@ -150,31 +262,42 @@ LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible) {
     return out;
 }
 
-bool limit_stretch(LatticeField& field, ViewU8x1 visible) {
+bool limit_stretch(LatticeField& field, ViewU8x1 visible, ScaleRange range) {
+    constexpr int kReach = 2;  // nodes
     const Size size = field.nodes().size();
-    ImageF1 excess(size), weight(size);
+    const float whole = whole_scale(field, visible, range);
+    ImageF1 past(size);
     bool any = false;
     for (int j = 1; j + 1 < size.height; ++j) {
         for (int i = 1; i + 1 < size.width; ++i) {
             if (!inside(field, visible, i, j)) continue;
-            const float stretch = stretch_at(field, i, j);
-            excess.at(i, j) = std::clamp(std::log2(stretch / kLimit), 0.0f, 1.0f);
-            weight.at(i, j) = excess.at(i, j) > 0 ? 0.02f : 1.0f;
-            any |= excess.at(i, j) > 0;
+            if (stretch_of(shape_at(field, i, j), whole) <= 1) continue;
+            past.at(i, j) = 1;
+            any = true;
         }
     }
     if (!any) return false;
-    const Similarity target = fit(field, weight);
-    for (int j = 1; j + 1 < size.height; ++j) {
-        for (int i = 1; i + 1 < size.width; ++i) {
-            // The mean over the neighbours, because a pull on a single node would tear the field.
-            float pull = 0;
-            for (int k = 0; k < 9; ++k)
-                pull += excess.at(i + k % 3 - 1, j + k / 3 - 1) / 9.0f;
+    // What is not seen goes along.
+    ImageF1 free = spread(past, kReach);
+    for (int j = 0; j < size.height; ++j) {
+        for (int i = 0; i < size.width; ++i) {
+            if (!inside(field, visible, i, j)) free.at(i, j) = 1;
+        }
+    }
+    Image<Slopes, 1> slopes(size);
+    for (int j = 0; j < size.height; ++j) {
+        for (int i = 0; i < size.width; ++i) {
+            const int u = std::clamp(i, 1, size.width - 2), v = std::clamp(j, 1, size.height - 2);
+            slopes.at(i, j) = limited_slopes(shape_at(field, u, v), whole);
+        }
+    }
+    const ImageF2 target = laid_by(slopes, free, field);
+    for (int j = 0; j < size.height; ++j) {
+        for (int i = 0; i < size.width; ++i) {
+            const float pull = kPull * free.at(i, j);
             if (pull <= 0) continue;
-            const Vec2 p = field.node_position(i, j);
-            field.set_node(i, j,
-                           field.node(i, j) + kPull * pull * (target(p) - landing(field, i, j)));
+            const Vec2 to(target.at(i, j, 0), target.at(i, j, 1));
+            field.set_node(i, j, field.node(i, j) + pull * (to - landing(field, i, j)));
         }
     }
     return true;

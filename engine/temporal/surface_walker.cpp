@@ -18,6 +18,26 @@ namespace {
 // of stationary Kalman filters that combine them.
 constexpr float kPlanarGain = 0.85f, kSmoothGain = 0.7f;
 
+LatticeField difference(const LatticeField& a, const LatticeField& b) {
+    LatticeField out = a;
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i)
+            out.set_node(i, j, a.node(i, j) - b.node(i, j));
+    }
+    return out;
+}
+
+// A frame's position, after the texture has slid by `slid` on another one.
+void slide(LatticeField& ref_from_there, const LatticeField& slid,
+           const LatticeField& cur_from_there) {
+    for (int j = 0; j < ref_from_there.nodes().height(); ++j) {
+        for (int i = 0; i < ref_from_there.nodes().width(); ++i) {
+            const Vec2 here = ref_from_there.node_position(i, j) + cur_from_there.node(i, j);
+            ref_from_there.set_node(i, j, ref_from_there.node(i, j) + slid.at(here));
+        }
+    }
+}
+
 }  // namespace
 
 // Switches to another anchor of an earlier generation if one explains the frame. Only generations
@@ -40,13 +60,39 @@ bool SurfaceWalker::State::try_others(const StepFrame& cur, int generation_below
 // and the previous track continues beside it for a while.
 bool SurfaceWalker::State::reanchor(ViewU8x1 visible) {
     if (!hide_reanchoring || hiding_left > 0) return false;
-    std::optional<LatticeField> relaxed = relaxed_stretch(ref_from_cur, visible);
+    std::optional<LatticeField> relaxed =
+        relaxed_stretch(ref_from_cur, visible, scale_range(visible));
     if (!relaxed) return false;
     stretched_at_event = std::exchange(ref_from_cur, std::move(*relaxed));
     relaxed_at_event = ref_from_cur;
     stretched = stretched_at_event;
     hiding_left = kReanchorFrames;
     return true;
+}
+
+// The surface as a whole may be as much larger or smaller as what is seen of it is, and half as
+// much again: how much of it is hidden is not known, nor how large a part was.
+ScaleRange SurfaceWalker::State::scale_range(ViewU8x1 visible) const {
+    if (first_px == 0) return {1.0f / 3, 3.0f};
+    const auto seen = static_cast<float>(std::max<std::int64_t>(1, visible_pixels(visible)));
+    const float grown = std::sqrt(static_cast<float>(first_px) / seen);
+    return {std::min(1.0f, grown) / 1.1f, std::max(1.0f, grown) * 1.1f};
+}
+
+// Where the texture slides, it slides on the present anchor as well; older ones would pull it back.
+// The track from before it was let go does not slide.
+void SurfaceWalker::State::slide_back(ViewU8x1 visible) {
+    const LatticeField before = ref_from_cur;
+    if (!limit_stretch(ref_from_cur, visible, scale_range(visible))) return;
+    const LatticeField slid = difference(ref_from_cur, before);
+    if (hiding_left > 0) {
+        const LatticeField event_from_cur = compose(before, inverse(relaxed_at_event));
+        slide(relaxed_at_event, slid, inverse(event_from_cur));
+    }
+    Anchor kept = anchors.present();
+    slide(kept.ref_from_anchor, slid, inverse(anchor_from_cur));
+    anchors.clear();
+    anchors.add(std::move(kept));
 }
 
 // Both tracks lie on the same surface, so the registration's correction holds for both.
@@ -137,12 +183,13 @@ void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>
     } else {
         correct(anchors.present_index(), mix(anchor_from_cur, found.anchor_from_cur,
                                              found.planar ? kPlanarGain : kSmoothGain));
-        if (reanchor(visible) || limit_stretch(ref_from_cur, visible)) {
-            // The texture slid: older anchors would pull it back.
+        if (reanchor(visible)) {
+            // The texture has slid: older anchors would pull it back.
             anchors.clear();
             become_anchor(cur);
             return;
         }
+        slide_back(visible);
     }
     constexpr double kEnough = 0.6;
     if (found.fit.share < kEnough) {
@@ -218,6 +265,7 @@ SurfaceWalker::SurfaceWalker(std::shared_ptr<const StepFrame> start,
     state_->plane = RigidPlane(options.kind);
     state_->ref_from_cur = ref_from_start ? *ref_from_start : still;
     state_->last = std::move(start);
+    state_->first_px = visible_pixels(state_->last->view().visible);
     state_->become_anchor(state_->last);
     state_->become_drawing();
     state_->prev_from_cur = still;
@@ -321,7 +369,7 @@ void SurfaceWalker::become_part() {
     State& s = *state_;
     s.is_part = true;
     s.plane.refute();
-    s.largest_px = 0;
+    s.first_px = s.largest_px = 0;
     s.steady_step = {};
     // No seam hides the change of a part's texture.
     s.hide_reanchoring = false;

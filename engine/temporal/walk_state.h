@@ -14,6 +14,7 @@
 #include "engine/temporal/lost_places.h"
 #include "engine/temporal/rigid_plane.h"
 #include "engine/temporal/step_motion.h"
+#include "engine/temporal/stretch_limit.h"
 #include "engine/temporal/surface_walker.h"
 
 namespace weft {
@@ -50,6 +51,7 @@ struct SurfaceWalker::State {
 
     bool lost = false;                     // not visible, or not found again yet
     int hidden_for = 0, searched_for = 0;  // frames
+    std::int64_t first_px = 0;             // the visible area in the frame where the walk begins
     std::int64_t largest_px = 0;           // the largest visible area in any frame
     // The last frame that showed enough of the surface to determine its motion as a whole.
     LatticeField steady_ref_from_cur, steady_step;
@@ -97,7 +99,9 @@ struct SurfaceWalker::State {
     [[nodiscard]] bool is_sliver(std::int64_t visible_px) const {
         return 6 * visible_px < largest_px;
     }
+    [[nodiscard]] ScaleRange scale_range(ViewU8x1 visible) const;
     bool reanchor(ViewU8x1 visible);
+    void slide_back(ViewU8x1 visible);
     void advance_stretched();
     void note_steady(ViewU8x1 visible, std::int64_t visible_px);
     // A frame against an anchor, by what the walk goes by. `motion`: of the step to it.
