@@ -76,4 +76,13 @@ Matte inside_without(ViewF1 distance, const Matte& pieces) {
     return out;
 }
 
+Matte inside_with(ViewF1 distance, const Matte& pieces) {
+    Matte out(distance.size());
+    for (int y = 0; y < out.height(); ++y) {
+        for (int x = 0; x < out.width(); ++x)
+            out.at(x, y) = distance.row(y)[x] > 0 || pieces.at(x, y) != 0 ? 255 : 0;
+    }
+    return out;
+}
+
 }  // namespace weft

@@ -17,5 +17,7 @@ void add_pieces(const Matte& pieces, Matte& matte);
 
 /// 255 where `distance` is inside and `pieces` is 0; both of one size.
 [[nodiscard]] Matte inside_without(ViewF1 distance, const Matte& pieces);
+/// 255 where `distance` is inside or `pieces` is not 0; both of one size.
+[[nodiscard]] Matte inside_with(ViewF1 distance, const Matte& pieces);
 
 }  // namespace weft

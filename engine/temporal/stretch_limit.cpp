@@ -11,11 +11,11 @@ namespace weft {
 namespace {
 
 // The limits: how much longer than wide a round spot of the texture becomes, and how much larger or
-// smaller, beside the whole surface. A ball shows the first where it is seen at 24°.
-constexpr float kMostDrawnOut = 2.2f, kMostScaled = 1.5f;
-constexpr float kDrawnOutAfter = 1.5f,
-                kScaledAfter = 1.2f;  // so that it is not past them again at once
-constexpr float kPull = 0.7f;         // of the way back, per frame
+// smaller, beside the whole surface. A ball shows the first where it is turned away by 73°.
+constexpr float kMostDrawnOut = 3.5f, kMostScaled = 2.0f;
+// What it is brought back to, so that it is not past them again at once.
+constexpr float kDrawnOutAfter = 1.5f, kScaledAfter = 1.2f;
+constexpr float kPull = 0.7f;  // of the way back, per frame
 
 Vec2 landing(const LatticeField& field, int i, int j) {
     return field.node_position(i, j) + field.node(i, j);

@@ -11,12 +11,12 @@ struct ScaleRange {
     float least = 1 / 1.1f, most = 1.1f;
 };
 
-/// Lets a texture slide back where it is drawn out to more than 2.5 times its width, or to more
-/// than 1.6 times its size in either direction beside the whole surface (a texture may grow with
-/// that as `range` says). There the field is laid anew: each node's slopes are brought within
-/// these limits, and nodes are put where neighbours' slopes agree best (local and global steps
+/// Lets a texture slide back where it is drawn out to more than 3.5 times its width, or is more
+/// than twice as large or small as that of the whole surface (which grows as far as `range` says).
+/// There the field is laid anew: slopes past a limit become slopes well within it (1.5 and 1.2
+/// times), and nodes are put where the slopes of neighbours agree best (local and global steps
 /// after Sorkine & Alexa 2007), 0.7 of the way a frame; otherwise a surface that turns away or
-/// tears would smear its texture without limit. What is seen and lies two to four nodes from all
+/// tears would smear its texture without limit. What is seen and further than four nodes from all
 /// that is past a limit stays. Returns true if anything changed.
 bool limit_stretch(LatticeField& ref_from_cur, ViewU8x1 visible, ScaleRange range = {});
 

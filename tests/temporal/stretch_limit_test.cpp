@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace weft {
 namespace {
@@ -37,6 +38,39 @@ TEST(StretchLimit, LetsASmearSlideBackOverSomeFrames) {
         limit_stretch(field, visible);
     EXPECT_GT(slope_on_the_right(field), 0.25f);
     EXPECT_NEAR(field.at({60, 64}).x, 0, 0.5f);
+}
+
+// What comes nearer to the camera takes its texture with it; how far is known from its size.
+TEST(StretchLimit, LeavesAWholeThatGrowsAlone) {
+    LatticeField field({256, 128}, 8);
+    for (int j = 0; j < field.nodes().height(); ++j) {
+        for (int i = 0; i < field.nodes().width(); ++i)
+            field.set_node(i, j, -0.7f * field.node_position(i, j));
+    }
+    const Matte visible(256, 128, 255);
+    LatticeField grown = field;
+    EXPECT_FALSE(limit_stretch(grown, visible, {0.25f, 1}));
+    EXPECT_TRUE(limit_stretch(grown, visible));
+}
+
+// All of it is drawn out: no part stays that the rest could be laid on.
+TEST(StretchLimit, BringsAWholeThatIsDrawnOutWithinTheLimit) {
+    LatticeField field({256, 128}, 8);
+    for (int j = 0; j < field.nodes().height(); ++j) {
+        for (int i = 0; i < field.nodes().width(); ++i) {
+            const Vec2 p = field.node_position(i, j);
+            field.set_node(i, j, {1.2f * p.x + 0.4f * p.y, -0.5f * p.y});
+        }
+    }
+    const Matte visible(256, 128, 255);
+    int frames = 0;
+    while (limit_stretch(field, visible) && frames < 12)
+        ++frames;
+    EXPECT_GT(frames, 0);
+    EXPECT_LT(frames, 12);
+    const Vec2 across = Vec2(40, 0) + field.at({148, 64}) - field.at({108, 64});
+    const Vec2 down = Vec2(0, 40) + field.at({128, 84}) - field.at({128, 44});
+    EXPECT_LT(glm::length(across) / glm::length(down), 3.5f);
 }
 
 TEST(StretchLimit, WhatIsNotSeenDoesNotCount) {

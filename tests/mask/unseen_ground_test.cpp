@@ -1,0 +1,102 @@
+// What a passing thing uncovers of a surface that was not seen on the keyframe.
+#include "engine/mask/unseen_ground.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "engine/mask/signed_distance.h"
+#include "tests/mask/moving_disc.h"
+
+namespace weft {
+namespace {
+
+constexpr float kGroundLimit_px = 30;
+constexpr int kSteps = 16;
+
+// A disc passes in front of the surface, which is all the rest. On the last frame it has left where
+// it was on the keyframe.
+struct Passing {
+    test::DiscScene scene;
+    ImageF1 key;
+    Passing() {
+        scene.step = {6, 0};
+        key = distance_without_disc(0);
+    }
+    [[nodiscard]] ImageF1 distance_without_disc(int t) const {
+        Matte surface = scene.matte(t);
+        for (int y = 0; y < surface.height(); ++y)
+            for (int x = 0; x < surface.width(); ++x)
+                surface.at(x, y) = static_cast<std::uint8_t>(255 - surface.at(x, y));
+        return signed_distance(inside_of(surface), kGroundLimit_px);
+    }
+    // The matte of a walk that never gives back what the disc hid: the surface of the keyframe,
+    // without the disc where it is.
+    [[nodiscard]] ImageF1 found(int t) const {
+        ImageF1 out = key;
+        const ImageF1 now = distance_without_disc(t);
+        std::transform(out.data(), out.data() + out.size_bytes() / sizeof(float), now.data(),
+                       out.data(), [](float a, float b) { return std::min(a, b); });
+        return out;
+    }
+    // Frames with another thing where the disc was on the keyframe.
+    [[nodiscard]] ImageU8x3 frame(int t, std::uint8_t darker) const {
+        ImageU8x3 out = scene.frame(t);
+        const Matte hole = scene.matte(0), disc = scene.matte(t);
+        for (int y = 0; y < out.height(); ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                if (hole.at(x, y) < 128 || disc.at(x, y) >= 128) continue;
+                for (int c = 0; c < 3; ++c)
+                    out.at(x, y, c) = static_cast<std::uint8_t>(out.at(x, y, c) - darker);
+            }
+        }
+        return out;
+    }
+    // Where the surface was added on any frame, of the places that the disc hid on the keyframe and
+    // has left by the last one.
+    [[nodiscard]] double added(std::uint8_t darker) const {
+        const ImageU8x3 first = scene.frame(0);
+        const SurfacePalette palette(first, key);
+        UnseenGround ground(key);
+        const ImageF2 still(scene.size);
+        Matte any(scene.size);
+        for (int t = 1; t <= kSteps; ++t) {
+            const ImageU8x3 now = frame(t, darker);
+            const FlowField flow = scene.prev_from_cur(t);
+            const ImageF1 before = found(t - 1), phi = found(t);
+            const Matte more =
+                ground.advance({now, flow, still, rect_of(scene.size), before, phi, 1.0f}, palette);
+            if (more.empty()) continue;
+            for (int y = 0; y < any.height(); ++y)
+                for (int x = 0; x < any.width(); ++x)
+                    if (more.at(x, y) != 0) any.at(x, y) = 255;
+        }
+        double all = 0, hits = 0;
+        const ImageF1 last = distance_without_disc(kSteps);
+        for (int y = 0; y < any.height(); ++y) {
+            for (int x = 0; x < any.width(); ++x) {
+                if (key.at(x, y) > -3 || last.at(x, y) < 3) continue;
+                all += 1;
+                hits += any.at(x, y) != 0 ? 1 : 0;
+            }
+        }
+        return hits / all;
+    }
+};
+
+TEST(UnseenGround, WhatLooksLikeTheSurfaceAndContinuesItJoins) {
+    EXPECT_GT(Passing().added(0), 0.9);
+}
+
+TEST(UnseenGround, WhatHasAnotherColourStaysOutside) {
+    EXPECT_EQ(Passing().added(60), 0);
+}
+
+// A white table behind a white shirt: coloured nearly as the surface, but there is an edge.
+TEST(UnseenGround, WhatLiesBeyondAnEdgeStaysOutside) {
+    EXPECT_EQ(Passing().added(18), 0);
+}
+
+}  // namespace
+}  // namespace weft
