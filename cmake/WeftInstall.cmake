@@ -20,6 +20,8 @@ install(FILES ${linux}/weft.bash RENAME weft DESTINATION ${CMAKE_INSTALL_DATADIR
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/packaging/python/weft
         DESTINATION lib/python3/dist-packages COMPONENT program
         FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/packaging/blender/ DESTINATION ${CMAKE_INSTALL_DATADIR}/weft/blender
+        COMPONENT program PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN decisions EXCLUDE PATTERN images EXCLUDE)
 
