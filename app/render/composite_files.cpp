@@ -222,6 +222,14 @@ Status check_composites(const std::vector<std::string>& files, const CompositeSo
                                    plate_number(sources)));
         WEFT_CHECK_OK(check_number("The output", sources.layers.path_for(sources.frames.front()),
                                    layers_number(sources)));
+        const bool nested = sources.shot.project.plate.layer.find('.') != std::string::npos;
+        if (*kind == TreeKind::kBlender && nested && !sources.apart)
+            return fail(
+                ErrorCode::kUsage,
+                "Blender shows no other layers of a file than those of its own renders, and "
+                "the plate is one.",
+                "Write the layers to files of their own" +
+                    by({{setting::kLayersOutput, "layers/####.exr"}}) + ".");
         if (*kind == TreeKind::kBlender && plate_curve(sources.shot.spaces) == PlateCurve::kCineon)
             return fail(ErrorCode::kUsage, "Blender cannot read film log, and the plate is in it.",
                         "Convert the plate to linear EXR, or write a .nk or .comp.");

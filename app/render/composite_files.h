@@ -21,6 +21,7 @@ struct CompositeSources {
     const ShotPlan& plan;
     std::vector<int> frames;  ///< Of the whole run, kept ones included; ascending.
     SequencePattern layers;   ///< The EXR files that hold the layers.
+    bool apart = false;       ///< They are not the frames' own.
 };
 
 /// The files that write_composites() writes: the trees, then a plane for each region that has one.
@@ -31,7 +32,8 @@ struct CompositeSources {
 
 /// Checks before any work that the trees can be written. Errors: Usage for a name that ends neither
 /// in .nk, .comp nor .py, for a plate that is a movie, has a straight alpha, is in a colour space
-/// that the programs do not have, or whose names end in another number; those of reading a frame.
+/// that the programs do not have, or whose names end in another number; for layers that Blender
+/// would not show; those of reading a frame.
 [[nodiscard]] Status check_composites(const std::vector<std::string>& files,
                                       const CompositeSources& sources);
 

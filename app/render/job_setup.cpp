@@ -137,7 +137,8 @@ Status choose_layer_files(JobSetup& setup) {
 // The texture plane, the node trees and the ST-maps.
 Status choose_exports(const JobSpec& spec, JobSetup& setup) {
     const CompositeSources sources{*setup.shot, setup.plan, setup.plan.frames,
-                                   setup.layer_pattern.value_or(setup.pattern)};
+                                   setup.layer_pattern.value_or(setup.pattern),
+                                   setup.layer_pattern.has_value()};
     WEFT_CHECK_OK(check_composites(spec.composites, sources));
     if (!spec.plane.empty()) WEFT_CHECK_OK(check_plane_file(spec.plane, setup.plan));
     if (spec.st_maps.empty()) return {};
@@ -225,7 +226,8 @@ CompositeSources JobSetup::composite_sources() const {
     std::vector<int> frames;
     for (const FrameResult& frame : result.frames)
         frames.push_back(frame.frame);
-    return {*shot, plan, std::move(frames), layer_pattern.value_or(pattern)};
+    return {*shot, plan, std::move(frames), layer_pattern.value_or(pattern),
+            layer_pattern.has_value()};
 }
 
 WriteOptions JobSetup::write_of(int frame) const {

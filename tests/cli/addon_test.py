@@ -126,7 +126,7 @@ class Gather(Scratch):
             colours = true[j, i] * inside[..., None]
             self.put({"L.UV.U": ("float", s), "L.UV.V": ("float", t), "matte.A": ("half", inside.astype(float)),
                       **{f"texture.{c}": ("half", colours[..., k]) for k, c in enumerate("RGB")}}, name=f"{frame}.exr")
-            paths.append(self.path(f"{frame}.exr"))
+            paths.append((self.path(f"{frame}.exr"),) * 2)
         found, shown = gather.gathered(paths, "L", side)
         self.assertLess(np.abs(found - true).mean(), 0.03)
         self.assertGreater(shown, 0.85)
@@ -137,7 +137,7 @@ class Gather(Scratch):
         self.put({name: ("half", zero) for name in ("L.UV.U", "L.UV.V", "matte.A", "texture.R", "texture.G",
                                                     "texture.B")})
         with self.assertRaises(gather.NothingSeen):
-            gather.gathered([self.path()], "L", 16)
+            gather.gathered([(self.path(), self.path())], "L", 16)
 
 
 unittest.main(argv=sys.argv[:1])

@@ -176,7 +176,7 @@ TEST_F(BlenderExchange, TheAddOnGoesThereAndBack) {
           "ViewLayer.DiffDir+ViewLayer.DiffInd", "Wall\\\\, \\\\\\\"left", "\"fov_deg\""})
         EXPECT_THAT(project, HasSubstr(part));
     const std::string result = in("weft/out/0003.exr");
-    const ImageF1 matte = exr_channel(result, "matte.A");
+    const ImageF1 matte = exr_channel(in("weft/layers/0003.exr"), "matte.A");
     const Rgba by_nodes = read_rgba(in("weft/by_nodes.exr")),
                by_uvs = read_rgba(in("weft/by_uvs.exr"));
     double nodes = 0, uvs = 0, changed = 0, count = 0;

@@ -48,7 +48,9 @@ def as_nodes(folder):
 
 
 def texture_image(files, layer, side, name, folder):
-    pixels, shown = gather.gathered(files, layer, side)
+    apart = os.path.join(folder, os.path.dirname(panel.LAYERS_OUTPUT))
+    pairs = [(file, os.path.join(apart, os.path.basename(file))) for file in files]
+    pixels, shown = gather.gathered(pairs, layer, side)
     image = bpy.data.images.new("Weft " + name, side, side, float_buffer=True)
     linear(image)
     flat = [1.0] * (side * side * 4)
@@ -96,8 +98,8 @@ class WEFT_OT_render(bpy.types.Operator):
         try:
             weft, folder = panel.weft_of(context), panel.folder_of(context.scene)
             window.progress_begin(0, 1)
-            program.run(weft, folder, "render", panel.PROJECT, "-o", panel.OUTPUT, "--resume", "--trust",
-                        "--export-composite", panel.TREE,
+            program.run(weft, folder, "render", panel.PROJECT, "-o", panel.OUTPUT, "--layers-output",
+                        panel.LAYERS_OUTPUT, "--resume", "--trust", "--export-composite", panel.TREE,
                         progress=lambda done, total: window.progress_update(done / max(1, total)))
         except (program.Failed, OSError) as error:
             self.report({"ERROR"}, str(error))

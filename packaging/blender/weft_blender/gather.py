@@ -8,13 +8,15 @@ class NothingSeen(Exception):
     """No frame shows the object."""
 
 
-def frame_samples(path, layer):
-    """UVs (N x 2) and unlit colours (N x 3) of the pixels that the surface covers wholly, in a frame of Weft's with the
-    layers `texture` and `matte`, which keeps Blender's UV pass of the view layer."""
+def frame_samples(path, layers, layer):
+    """UVs (N x 2) and unlit colours (N x 3) of the pixels that the surface covers wholly: of a frame of Weft's, which
+    keeps the view layer's UV pass, and of the file of its layers `texture` and `matte`."""
     names = exr.channel_names(path)
     u, v = next(((f"{layer}.UV.{a}", f"{layer}.UV.{b}") for a, b in (("U", "V"), ("X", "Y"))
                  if f"{layer}.UV.{a}" in names), (f"{layer}.UV.U", f"{layer}.UV.V"))
-    data = exr.read(path, [u, v, "matte.A", "texture.R", "texture.G", "texture.B"])
+    data = exr.read(path, [u, v]) | exr.read(layers, ["matte.A", "texture.R", "texture.G", "texture.B"])
+    if data[u].shape != data["matte.A"].shape:
+        raise exr.Unreadable(f"{layers} has another size than {path}.")
     sure = data["matte.A"] >= 1
     # UVs of pixels at an edge are mixed with those of what is behind.
     inner = sure.copy()
@@ -55,11 +57,11 @@ def filled(total, weight):
     return np.where(known[..., None], out, from_coarse)
 
 
-def gathered(paths, layer, side):
-    """The texture (side x side x 3, rows upwards, linear light) and the share of it that the frames show."""
+def gathered(frames, layer, side):
+    """Of pairs of files as frame_samples() takes them: the texture (side x side x 3, rows upwards, linear light) and the share of it that the frames show."""
     total, weight = np.zeros((side * side, 3)), np.zeros(side * side)
-    for path in paths:
-        uv, colours = frame_samples(path, layer)
+    for path, layers in frames:
+        uv, colours = frame_samples(path, layers, layer)
         good = np.isfinite(uv).all(1) & np.isfinite(colours).all(1)
         splat(uv[good], colours[good], side, total, weight)
     if not weight.any():

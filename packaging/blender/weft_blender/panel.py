@@ -7,6 +7,8 @@ import bpy
 from . import program
 
 PROJECT, OUTPUT, TREE = "shot.weft", "out/####.exr", "out/weft.py"
+# In files of their own: of a file with layers of Blender's, Blender shows no others.
+LAYERS_OUTPUT = "layers/####.exr"
 
 
 class WeftSettings(bpy.types.PropertyGroup):

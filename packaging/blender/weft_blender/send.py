@@ -64,7 +64,8 @@ def make_project(weft, folder, scene, layer, thing, texture, channels):
     if not os.path.exists(project):
         fps = scene.render.fps / scene.render.fps_base
         program.run(weft, folder, "new", panel.PROJECT, "--plate", files, "--plate-layer", layer.name + ".Combined",
-                    "--fps", f"{fps:.6g}", "-o", panel.OUTPUT, "--layers", LAYERS)
+                    "--fps", f"{fps:.6g}", "-o", panel.OUTPUT, "--layers", LAYERS,
+                    "--layers-output", panel.LAYERS_OUTPUT)
     regions = program.run(weft, folder, "region", "list", panel.PROJECT)["regions"]
     camera = scene.camera.data
     fov = math.degrees(camera.angle_x) if camera.type == "PERSP" else None
