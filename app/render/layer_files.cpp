@@ -85,7 +85,7 @@ std::vector<ExrLayer> exr_layers(const FrameLayers& layers, const std::vector<La
                 out.push_back(layer_of(name, {"R", "G", "B"}, layers.texture));
                 break;
             case LayerKind::kFinish:
-                out.push_back(layer_of(name, {"R", "G", "B"}, layers.finish));
+                out.push_back(layer_of(name, {"R", "G", "B"}, layers.finish, true));
                 break;
             case LayerKind::kNormal:
                 out.push_back(layer_of(name, {"x", "y", "z"}, layers.form.normal));

@@ -85,7 +85,9 @@ TEST_F(BlenderExchange, TheTreeGivesTheRender) {
             std::printf("texture %d: %.2f steps of a half float at most, %.5f in the mean\n",
                         texture, static_cast<double>(worst), off / count);
             EXPECT_GT(count, 10000);
-            if (texture == 0) EXPECT_LE(worst, 2.0f);
+            if (texture == 0) {
+                EXPECT_LE(worst, 2.0f);
+            }
             EXPECT_LT(off / count, 0.01) << "texture " << texture;
             EXPECT_EQ(off > 0.01 * count * 1e-2, texture == 1) << "the switch does nothing";
         }
@@ -119,7 +121,9 @@ TEST_F(BlenderExchange, MapUvShowsWhatTheMapsSay) {
         std::printf("frame %s: Map UV is %.5f px off at most\n", frame, static_cast<double>(worst));
         EXPECT_GT(compared, 4700);
         EXPECT_LT(worst, 0.1f);
-        if (std::string(frame) == "1001") EXPECT_EQ(same, compared) << "bit for bit";
+        if (std::string(frame) == "1001") {
+            EXPECT_EQ(same, compared) << "bit for bit";
+        }
     }
 }
 
