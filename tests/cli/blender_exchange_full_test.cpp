@@ -52,6 +52,7 @@ class BlenderExchange : public CliTest {
 
 TEST_F(BlenderExchange, TheTreeGivesTheRender) {
     make_shot(2, 1001, ".exr", PixelDepth::kHalf);
+    put_picture("tile.png", smooth_plane(), PixelDepth::kU16);
     for (const char* plate : {"frames/####.exr", "png/####.png"}) {
         SCOPED_TRACE(plate);
         if (std::string(plate).ends_with(".png")) {
@@ -199,9 +200,9 @@ TEST_F(BlenderExchange, TheAddOnGoesThereAndBack) {
     }
     std::printf("of Weft's result: nodes %.5f, texture by UVs %.4f off; the plate %.4f\n",
                 nodes / count, uvs / count, changed / count);
-    EXPECT_GT(count, 3 * 10000);
+    EXPECT_GT(count, 3.0 * 10000);
     EXPECT_LT(nodes / count, 1e-3);
-    EXPECT_LT(uvs, 0.25 * changed);
+    EXPECT_LT(uvs, 0.1 * changed);
 }
 
 }  // namespace

@@ -88,6 +88,7 @@ TEST_F(Composites, TheTreesGiveTheRender) {
 // The plane through the ST-map is the texture, within what filtering does.
 TEST_F(Composites, TheSwitchShowsThePlaneThroughTheMap) {
     make_linear_shot(2);
+    put_picture("tile.png", smooth_plane(), PixelDepth::kU16);
     expect_success(render({"--export-composite", "shot.nk", "--export-composite", "shot.comp",
                            "--plane", "tile.png", "--scale", "2"}));
     const Rgba nuke = tree("shot.nk", 1002, 1), fusion = tree("shot.comp", 1002, 1);
@@ -121,7 +122,8 @@ TEST_F(Composites, SeveralRegionsShowTheirOwnPlanes) {
                 half.at(x, y) = 0;
         put_matte("half/" + std::to_string(frame) + ".png", half);
     }
-    put_picture("other.png", pattern_picture({128, 128}, 9));
+    put_picture("tile.png", smooth_plane(), PixelDepth::kU16);
+    put_picture("other.png", smooth_plane(32), PixelDepth::kU16);
     expect_success(run({"new", "shot.weft", "--plate", "frames/####.exr", "-o", "out/####.exr"}));
     for (const auto& [name, masks, plane] :
          {std::array{"card", "masks/####.png", "tile.png"}, {"half", "half/####.png", "other.png"}})
