@@ -21,8 +21,8 @@ struct FrameLayers {
     ImageF3 light;             ///< What the texture was multiplied by; 1 where there is no region.
     ImageF1 light_confidence;  ///< Shading::sure, 0–1; 0 where there is no region.
     ImageF3 gloss;             ///< What was added to it then; 0 where there is none.
-    /// What is added last, so that patch = alpha · (texture · light + gloss + finish) where all but it
-    /// are rounded as half floats: grain, ink, blending, regions below. Of note_finish().
+    /// What is added last, so that patch = alpha · (texture · light + gloss + finish) where all but
+    /// it are rounded as half floats: grain, ink, blending, regions below. Of note_finish().
     ImageF3 finish;
     ImageF2 st;    ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
     ImageF1 seam;  ///< 1 where a seam of the texture plane shows.
