@@ -17,8 +17,11 @@ install(FILES ${PROJECT_BINARY_DIR}/packaging/copyright DESTINATION ${CMAKE_INST
 install(FILES ${linux}/weft.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${linux}/weft.bash RENAME weft DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         COMPONENT program)
-install(FILES ${PROJECT_SOURCE_DIR}/packaging/python/weft/__init__.py
-        DESTINATION lib/python3/dist-packages/weft COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/packaging/python/weft
+        DESTINATION lib/python3/dist-packages COMPONENT program
+        FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/packaging/blender/ DESTINATION ${CMAKE_INSTALL_DATADIR}/weft/blender
+        COMPONENT program PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN decisions EXCLUDE PATTERN images EXCLUDE)
 

@@ -44,6 +44,7 @@ struct RunOptions {
     std::string texture_library;  ///< Library of textures "db:ID"; empty: the user's own.
     std::string report;           ///< Path of the JSON report.
     std::string plane, st_maps;   ///< As JobSpec has them.
+    std::vector<std::string> composites;
     ProgressStyle progress = ProgressStyle::kPlain;
 };
 

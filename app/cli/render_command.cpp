@@ -41,6 +41,7 @@ JobSpec spec_of(const Project& project, const RunOptions& run) {
     // A single stage writes no recipe, and what it makes only.
     const bool whole = run.stage == JobStage::kAll;
     if (whole) spec.recipe = run.recipe;
+    if (whole) spec.composites = run.composites;
     if (whole || run.stage == JobStage::kPlanes) spec.plane = run.plane;
     if (whole || run.stage == JobStage::kFrames) spec.st_maps = run.st_maps;
     return spec;
@@ -158,7 +159,9 @@ CommandResult render_command(const Project& given, const RunOptions& run) {
     const auto roots = permitted_roots(project, run.project_file, by_user, trusted);
     spec.limits.roots.insert(spec.limits.roots.end(), roots.begin(), roots.end());
     if (!roots.empty()) {
-        for (const std::string& path : {run.report, run.recipe, run.plane, run.st_maps})
+        std::vector<std::string> named{run.report, run.recipe, run.plane, run.st_maps};
+        named.insert(named.end(), run.composites.begin(), run.composites.end());
+        for (const std::string& path : named)
             if (!path.empty()) spec.limits.roots.push_back(fs::path(path).parent_path().string());
     }
     WEFT_TRY(result, run_job(spec, cancel_on_signals(), progress_printer(run.progress)));

@@ -57,6 +57,13 @@ void add_export_flags(CLI::App& command, RunOptions& run) {
                     "Also write ST-maps between the reference frame and each frame "
                     "('st/####.exr')")
         ->type_name("PATH");
+    command
+        .add_option("--export-composite", run.composites,
+                    "Also write a node tree that rebuilds the frames from plate and layers: for "
+                    "Nuke (.nk), Fusion (.comp) or Blender (.py); repeatable")
+        ->type_name("PATH")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 }  // namespace

@@ -43,11 +43,13 @@ float grey_of(const FrameLayers& layers, LayerKind kind, int x, int y, float nea
 PicturePtr layer_picture(const FrameLayers& layers, LayerKind kind,
                          const ColorTransform& out_from_working, const MakePicture& picture) {
     const Size size = layers.alpha.size();
-    const ImageF3* const colours = kind == LayerKind::kPatch   ? &layers.patch
-                                   : kind == LayerKind::kEdge  ? &layers.edge
-                                   : kind == LayerKind::kLight ? &layers.light
-                                   : kind == LayerKind::kGloss ? &layers.gloss
-                                                               : nullptr;
+    const ImageF3* const colours = kind == LayerKind::kPatch     ? &layers.patch
+                                   : kind == LayerKind::kEdge    ? &layers.edge
+                                   : kind == LayerKind::kLight   ? &layers.light
+                                   : kind == LayerKind::kGloss   ? &layers.gloss
+                                   : kind == LayerKind::kTexture ? &layers.texture
+                                   : kind == LayerKind::kFinish  ? &layers.finish
+                                                                 : nullptr;
     if (colours) {
         ImageF3 pixels = *colours;
         // A gain of 1 is neutral and shown as middle grey.

@@ -49,7 +49,7 @@ Expected<std::shared_ptr<const Shot>> open_job_shot(const JobSpec& spec,
         open.cache_bytes =
             std::min(open.cache_bytes, static_cast<std::size_t>(spec.memory_bytes) / kCacheShare);
     }
-    WEFT_TRY(shot, open_shot(spec.project, open));
+    WEFT_TRY(shot, open_shot(with_composite_layers(spec.project, spec.composites), open));
     WEFT_CHECK_OK(check_texture_licences(*shot));
     return shot;
 }
@@ -134,8 +134,12 @@ Status choose_layer_files(JobSetup& setup) {
     return {};
 }
 
-// The texture plane and the ST-maps.
+// The texture plane, the node trees and the ST-maps.
 Status choose_exports(const JobSpec& spec, JobSetup& setup) {
+    const CompositeSources sources{*setup.shot, setup.plan, setup.plan.frames,
+                                   setup.layer_pattern.value_or(setup.pattern),
+                                   setup.layer_pattern.has_value()};
+    WEFT_CHECK_OK(check_composites(spec.composites, sources));
     if (!spec.plane.empty()) WEFT_CHECK_OK(check_plane_file(spec.plane, setup.plan));
     if (spec.st_maps.empty()) return {};
     WEFT_CHECK_OK(check_st_maps(spec.st_maps, setup.plan));
@@ -182,6 +186,7 @@ Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folder
     OutputPlan outputs{setup.pattern, {}, setup.plan.frames, size, {}, {}, {}};
     outputs.st_maps = setup.st_map_pattern;
     outputs.plane = spec.plane;
+    outputs.composites = composite_outputs(spec.composites, setup.plan);
     if (spec.stage == JobStage::kAll || spec.stage == JobStage::kFrames)
         outputs.layers = setup.layer_pattern;
     outputs.report = spec.report;
@@ -196,6 +201,7 @@ Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folder
     setup.result.recipe_rule = rules.recipe;
     setup.movie_rule = rules.movie;
     setup.plane_rule = rules.plane;
+    setup.composite_rules = rules.composites;
     WEFT_TRY(kept, frames_to_keep(setup.pattern, setup.plan.frames, size, existing_frames(spec),
                                   {setup.write.metadata, setup.inputs}));
     // The encoder renders nothing: it refuses what does not fit.
@@ -215,6 +221,14 @@ Status check_existing(const JobSpec& spec, JobSetup& setup, OutputFolders folder
 }
 
 }  // namespace
+
+CompositeSources JobSetup::composite_sources() const {
+    std::vector<int> frames;
+    for (const FrameResult& frame : result.frames)
+        frames.push_back(frame.frame);
+    return {*shot, plan, std::move(frames), layer_pattern.value_or(pattern),
+            layer_pattern.has_value()};
+}
 
 WriteOptions JobSetup::write_of(int frame) const {
     WriteOptions out = write;

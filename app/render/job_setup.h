@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/render/composite_files.h"
 #include "app/render/output_plan.h"
 #include "app/render/render_job.h"
 #include "engine/media/frame_writer.h"
@@ -27,6 +28,9 @@ struct JobSetup {
     [[nodiscard]] WriteOptions write_of(int frame) const;
     std::optional<SequencePattern> st_map_pattern;  ///< Pattern of the ST-maps.
     WriteRule movie_rule, plane_rule;
+    std::vector<WriteRule> composite_rules;  ///< Of each of composite_outputs().
+    /// What node trees read.
+    [[nodiscard]] CompositeSources composite_sources() const;
     std::size_t frames_at_once = 1;  ///< Frames rendered in parallel, limited by memory.
     /// Results known so far: frames (with skipped ones), spaces, textures, warnings.
     JobResult result;

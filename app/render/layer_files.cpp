@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "engine/pipeline/st_rim.h"
+
 namespace weft {
 namespace {
 
@@ -31,11 +33,16 @@ ExrLayer st_layer(const FrameLayers& layers) {
     ExrLayer out{{"st.R", "st.G", "st.B"}, true, {}};
     const std::size_t pixels = layers.alpha.size_bytes() / sizeof(float);
     out.samples.reserve(3 * pixels);
+    ImageF1 covers(layers.st.size());
     for (std::size_t i = 0; i < pixels; ++i) {
         const float* st = layers.st.data() + 2 * i;
-        const bool known = st[0] != 0 || st[1] != 0;
-        out.samples.insert(out.samples.end(),
-                           {st[0], st[1], known ? layers.alpha.data()[i] : 0.0f});
+        covers.data()[i] = st[0] != 0 || st[1] != 0 ? layers.alpha.data()[i] : 0.0f;
+    }
+    ImageF2 all = layers.st;
+    continue_map(all, covers);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const float* st = all.data() + 2 * i;
+        out.samples.insert(out.samples.end(), {st[0], st[1], covers.data()[i]});
     }
     return out;
 }
@@ -73,6 +80,12 @@ std::vector<ExrLayer> exr_layers(const FrameLayers& layers, const std::vector<La
                 break;
             case LayerKind::kId:
                 out.push_back(layer_of(name, {"Y"}, layers.id, true));
+                break;
+            case LayerKind::kTexture:
+                out.push_back(layer_of(name, {"R", "G", "B"}, layers.texture));
+                break;
+            case LayerKind::kFinish:
+                out.push_back(layer_of(name, {"R", "G", "B"}, layers.finish, true));
                 break;
             case LayerKind::kNormal:
                 out.push_back(layer_of(name, {"x", "y", "z"}, layers.form.normal));

@@ -23,8 +23,8 @@ constexpr std::int64_t kProgramBytes = 380ll << 20;
 constexpr std::int64_t kShotBytesPerPixel = 70;
 constexpr std::int64_t kFrameBytesPerPixel = 55;
 // Additional memory of a frame's layers: images, samples by channel, and rows packed for the file;
-// 60 of it for those of the form, if they are asked for.
-constexpr std::int64_t kLayersBytesPerPixel = 250;
+// 60 of it for those of the form, and 60 for texture and finish, if they are asked for.
+constexpr std::int64_t kLayersBytesPerPixel = 310;
 
 std::int64_t frame_bytes_per_pixel(bool layers) {
     return kFrameBytesPerPixel + (layers ? kLayersBytesPerPixel : 0);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/render/composite_files.h"
 #include "app/render/existing_frames.h"
 #include "engine/core/input_file.h"
 #include "engine/core/setting.h"
@@ -24,6 +25,8 @@ std::vector<PlannedFile> planned_files(const OutputPlan& plan) {
             files.push_back({"The ST-maps of frame " + number, plan.st_maps->path_for(frame)});
     }
     if (!plan.plane.empty()) files.push_back({"The texture plane", plan.plane});
+    for (const std::string& path : plan.composites)
+        files.push_back({"The composite", path});
     if (!plan.movie.empty()) files.push_back({"The movie", plan.movie});
     if (!plan.report.empty()) files.push_back({"The report", plan.report});
     if (!plan.recipe.empty()) files.push_back({"The recipe", plan.recipe});
@@ -107,7 +110,9 @@ Expected<OutputRules> check_outputs(const OutputPlan& plan, ExistingFrames exist
     WEFT_CHECK_OK(check_fence(plan.frames, plan.numbers, frames));
     for (const auto& pattern : {plan.layers, plan.st_maps})
         if (pattern) WEFT_CHECK_OK(check_fence(*pattern, plan.numbers, frames));
-    for (const std::string& path : {plan.movie, plan.report, plan.recipe, plan.plane}) {
+    std::vector<std::string> others{plan.movie, plan.report, plan.recipe, plan.plane};
+    others.insert(others.end(), plan.composites.begin(), plan.composites.end());
+    for (const std::string& path : others) {
         if (!path.empty() && frames.fence && !is_device(path))
             WEFT_CHECK_OK(frames.fence->check(path, real_path(path)));
     }
@@ -118,7 +123,7 @@ Expected<OutputRules> check_outputs(const OutputPlan& plan, ExistingFrames exist
         WEFT_CHECK_OK(prepare_frames(*pattern, first, frames, folders));
         WEFT_CHECK_OK(check_beside(*pattern, plan.numbers, existing));
     }
-    const OutputRules rules{
+    OutputRules rules{
         rule_beside(frames, existing, is_review_movie(plan.movie, plan.size), false),
         rule_beside(frames, existing, is_of_schema(plan.report, "weft.report/1"), true),
         rule_beside(frames, existing, is_of_schema(plan.recipe, "weft.recipe/1"), true),
@@ -129,6 +134,11 @@ Expected<OutputRules> check_outputs(const OutputPlan& plan, ExistingFrames exist
                                                                    {plan.plane, rules.plane}};
     for (const auto& [path, rule] : beside)
         if (!path.empty()) WEFT_CHECK_OK(prepare(path, rule, folders));
+    for (const std::string& path : plan.composites) {
+        const bool own = is_composite_of_weft(path) || is_frame_of_weft(path);
+        rules.composites.push_back(rule_beside(frames, existing, own, false));
+        WEFT_CHECK_OK(prepare(path, rules.composites.back(), folders));
+    }
     return rules;
 }
 

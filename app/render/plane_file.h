@@ -2,6 +2,7 @@
 #include <string>
 
 #include "app/shot/shot.h"
+#include "engine/color/grade.h"
 #include "engine/compute/plane_pyramid.h"
 #include "engine/media/frame_writer.h"
 
@@ -17,5 +18,10 @@ namespace weft {
 /// `write` gives the other metadata and the rule. Errors: as write_image().
 [[nodiscard]] Status write_plane_file(const std::string& path, const PlanePyramid& plane,
                                       const ShotSpaces& spaces, WriteOptions write);
+
+/// Writes a plane in the working space with the region's grade, as the layer `texture` has it: an
+/// EXR of 32 bit floats, otherwise as write_plane_file().
+[[nodiscard]] Status write_graded_plane(const std::string& path, const PlanePyramid& plane,
+                                        const Grade& grade, WriteOptions write);
 
 }  // namespace weft

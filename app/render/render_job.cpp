@@ -189,6 +189,11 @@ Status export_plane(const JobRun& job) {
     return write_plane_file(job.spec.plane, plane, job.shot().spaces, write);
 }
 
+Status export_composites(const JobRun& job) {
+    return write_composites(job.spec.composites, job.setup.composite_sources(), job.scenes,
+                            job.setup.write, job.setup.composite_rules);
+}
+
 // ---- frames ----------------------------------------------------------------------------------
 
 Status frame_stage(JobRun& job, std::int64_t& done) {
@@ -246,6 +251,7 @@ Status run_stages(JobRun& job, Clock::time_point start, std::int64_t& frames_don
     WEFT_CHECK_OK(export_plane(job));
     if (stage == JobStage::kAnalyse || stage == JobStage::kPlanes) return {};
     WEFT_CHECK_OK(timed(result.seconds.render, [&] { return frame_stage(job, frames_done); }));
+    WEFT_CHECK_OK(export_composites(job));
     result.fps = static_cast<double>(job.plan.frames.size()) / std::max(1e-9, seconds_since(work));
     result.seconds.total = seconds_since(start);
     add_warnings(job);

@@ -68,6 +68,8 @@ struct JobSpec {
     WriteLimits limits;
     std::string plane;    ///< Picture of the texture plane to write (plane_file.h); empty: none.
     std::string st_maps;  ///< Pattern of ST-maps to write (st_map_files.h); empty: none.
+    /// Node trees to write (composite_files.h), with the layers that they need.
+    std::vector<std::string> composites;
     /// Files that the caller writes afterwards; checked with the frames.
     std::string report, recipe;
 };

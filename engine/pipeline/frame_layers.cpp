@@ -10,9 +10,11 @@ FrameLayers::FrameLayers(Size size, bool with_form)
     : patch(size),
       alpha(size),
       edge(size),
+      texture(size),
       light(size, 1.0f),
       light_confidence(size),
       gloss(size),
+      finish(size),
       st(size),
       seam(size),
       id(size) {
@@ -20,6 +22,18 @@ FrameLayers::FrameLayers(Size size, bool with_form)
 }
 
 namespace {
+
+// The nearest half float, ties to even, as OpenEXR rounds; all steps are exact.
+float as_half(float value) {
+    constexpr float kLargest = 65504;
+    if (!std::isfinite(value)) return value;
+    constexpr int kMantissa = 11, kSmallest = -13;
+    int exponent = 0;
+    std::frexp(value, &exponent);
+    const int step = std::max(exponent, kSmallest) - kMantissa;
+    const float rounded = std::ldexp(std::nearbyint(std::ldexp(value, -step)), step);
+    return std::clamp(rounded, -kLargest, kLargest);
+}
 
 float confidence_at(const Shading* light, int x, int y) {
     if (!light || light->sure.empty()) return 1;
@@ -40,6 +54,7 @@ void add_share(FrameLayers& layers, const LayerShare& share) {
                 const float gloss = share.gloss.empty() ? 0.0f : share.gloss.pixel(x, y)[c];
                 const float before = share.unlit.pixel(x, y)[c];
                 const float after = share.lit.pixel(x, y)[c] - gloss;
+                layers.texture.at(px, py, c) = before;
                 layers.gloss.at(px, py, c) = gloss;
                 layers.light.at(px, py, c) = before > kDark ? after / before : 1.0f;
             }
@@ -99,6 +114,22 @@ void finish_layers(FrameLayers& layers, ViewF3 plate, ViewF3 composite) {
                 const float under = std::isfinite(f) ? f * (1 - alpha) : 0.0f;
                 layers.edge.at(x, y, c) =
                     composite.pixel(x, y)[c] - (under + layers.patch.at(x, y, c));
+            }
+        }
+    }
+}
+
+void note_finish(FrameLayers& layers) {
+    const Size size = layers.patch.size();
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const float alpha = as_half(layers.alpha.at(x, y));
+            if (alpha <= 0) continue;
+            for (int c = 0; c < 3; ++c) {
+                const float lit =
+                    as_half(layers.texture.at(x, y, c)) * as_half(layers.light.at(x, y, c)) +
+                    as_half(layers.gloss.at(x, y, c));
+                layers.finish.at(x, y, c) = layers.patch.at(x, y, c) / alpha - lit;
             }
         }
     }

@@ -17,9 +17,13 @@ struct FrameLayers {
     ImageF1 alpha;
     /// What soft edges remove of the old surface, and the remainder of the equation.
     ImageF3 edge;
+    ImageF3 texture;           ///< The topmost region's, before light; 0 where there is none.
     ImageF3 light;             ///< What the texture was multiplied by; 1 where there is no region.
     ImageF1 light_confidence;  ///< Shading::sure, 0–1; 0 where there is no region.
     ImageF3 gloss;             ///< What was added to it then; 0 where there is none.
+    /// What is added last, so that patch = alpha · (texture · light + gloss + finish) where all but
+    /// it are rounded as half floats: grain, ink, blending, regions below. Of note_finish().
+    ImageF3 finish;
     ImageF2 st;    ///< Place in the texture, 0–1, origin bottom left; 0 where there is none.
     ImageF1 seam;  ///< 1 where a seam of the texture plane shows.
     ImageF1 id;    ///< The region's id, of the topmost; 0 where there is none.
@@ -52,6 +56,8 @@ void add_patch(FrameLayers& layers, const Recti& box, ViewU8x1 matte, ViewF3 tex
 void add_form(FrameLayers& layers, const Recti& box, ViewU8x1 matte, const ShownForm& form);
 /// `plate` and `composite` in the working space.
 void finish_layers(FrameLayers& layers, ViewF3 plate, ViewF3 composite);
+/// Fills FrameLayers::finish from the others; the last step, after the plate's alpha was put back.
+void note_finish(FrameLayers& layers);
 
 /// 255 at texels whose right or lower neighbour is not their neighbour in the sample.
 [[nodiscard]] Matte seam_texels(const TexturePlane& plane);

@@ -16,6 +16,8 @@ enum class LayerKind {
     kMatte,
     kSeam,
     kId,
+    kTexture,
+    kFinish,
     kNormal,
     kDepth,
     kFormConfidence
@@ -27,7 +29,7 @@ struct LayerInfo {
     std::string_view help;  ///< One line in sentence case, without a full stop.
 };
 /// All of them, in the order in which they stand in files.
-inline constexpr std::array<LayerInfo, 12> kLayers{
+inline constexpr std::array<LayerInfo, 14> kLayers{
     {{LayerKind::kPatch, "patch", "The new texture with its coverage, premultiplied"},
      {LayerKind::kEdge, "edge", "What soft edges take away of the old surface"},
      {LayerKind::kLight, "light", "What the texture was multiplied by"},
@@ -38,6 +40,8 @@ inline constexpr std::array<LayerInfo, 12> kLayers{
      {LayerKind::kMatte, "matte", "Coverage of all regions"},
      {LayerKind::kSeam, "seam", "Where a seam of the synthesized texture shows"},
      {LayerKind::kId, "id", "The region's number"},
+     {LayerKind::kTexture, "texture", "The texture before light"},
+     {LayerKind::kFinish, "finish", "What comes after light and gloss: grain, ink, blending"},
      {LayerKind::kNormal, "normal", "Normal of the form found, in the camera's axes"},
      {LayerKind::kDepth, "depth", "Depth of the form found, along the camera's axis"},
      {LayerKind::kFormConfidence, "form_confidence", "How sure the form is, 0 where it is flat"}}};

@@ -330,6 +330,7 @@ Expected<RenderedFrame> FrameRenderer::finish() {
         finish_layers(*layers_, working_, canvas_);
         put_alpha_back(layers_->patch, touched_, alpha_);
         put_alpha_back(layers_->edge, touched_, alpha_);
+        note_finish(*layers_);
         out.layers = std::move(layers_);
     }
     const bool rolls_off = lit_ && plan_.display_referred;

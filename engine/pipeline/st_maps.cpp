@@ -11,6 +11,7 @@
 #include "engine/pipeline/motion_zones.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
+#include "engine/pipeline/st_rim.h"
 
 namespace weft {
 namespace {
@@ -91,12 +92,18 @@ StMaps empty_maps(Size size) {
     return {{ImageF2(size), ImageF1(size)}, {ImageF2(size), ImageF1(size)}};
 }
 
+void continue_maps(StMaps& maps) {
+    for (StMap* map : {&maps.warp, &maps.stabilize})
+        continue_map(map->st, map->visible);
+}
+
 }  // namespace
 
 StMaps st_maps_of(const LatticeField& there_from_here, const Matte& visible) {
     StMaps out = empty_maps(visible.size());
     add_warp(out.warp, there_from_here, visible);
     add_stabilize(out.stabilize, there_from_here, visible);
+    continue_maps(out);
     return out;
 }
 
@@ -111,6 +118,7 @@ Expected<StMaps> st_maps(const ShotSource& source, const ShotPlan& plan,
         add_warp(out.warp, ref_from_cur, visible);
         add_stabilize(out.stabilize, ref_from_cur, visible);
     }
+    continue_maps(out);
     return out;
 }
 

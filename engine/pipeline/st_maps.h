@@ -14,7 +14,7 @@ namespace weft {
 struct StMap {
     /// The place of the other picture that comes to each pixel: s = x / W, t = 1 − y / H, with the
     /// centre of pixel (x, y) at (x + 0.5, y + 0.5), so 0–1 from the lower left corner; beyond the
-    /// picture it goes on. 0 where `visible` is 0.
+    /// picture it goes on. Where `visible` is 0 it goes on for two pixels (st_rim.h), then it is 0.
     ImageF2 st;
     ImageF1 visible;  ///< How much of the surface the frame shows there, 0–1, holdouts taken off.
 };

@@ -44,6 +44,8 @@ const std::vector<Untested> kThroughOthers{
     {"app/project/look_parameters.h", "internal: tests/project, through parameters.h"},
     {"app/project/parameter_entry.h", "internal: tests/project, through parameters.h"},
     {"app/project/parameter_lists.h", "internal: tests/project, through parameters.h"},
+    {"app/composites/composite.h", "tests/cli: the exported composites"},
+    {"app/render/composite_files.h", "tests/cli: the exported composites"},
     {"app/render/output_plan.h", "tests/cli: every command that writes"},
     {"app/render/plane_file.h", "tests/cli: the exported plane"},
     {"app/render/st_map_files.h", "tests/cli: the exported ST-maps"},

@@ -1,6 +1,7 @@
 #include "tests/cli/card_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/rng.h"
 
@@ -54,6 +55,21 @@ Matte card_matte(int step) {
         for (int x = 0; x < matte.width(); ++x)
             matte.at(x, y) = Card::covers(step, x, y) ? 255 : 0;
     return matte;
+}
+
+ImageF3 smooth_plane(float period) {
+    constexpr int kSide = 128;
+    ImageF3 out(kSide, kSide);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const float turn = 6.2831853f / period;
+            const float u = turn * static_cast<float>(x), v = turn * static_cast<float>(y);
+            out.at(x, y, 0) = 0.5f + 0.3f * std::sin(u);
+            out.at(x, y, 1) = 0.5f + 0.3f * std::sin(v);
+            out.at(x, y, 2) = 0.5f + 0.2f * std::sin(u + v);
+        }
+    }
+    return out;
 }
 
 }  // namespace weft::test

@@ -21,5 +21,8 @@ ImageF3 card_plate(int step);
 Matte card_matte(int step);
 /// A colourful pattern with detail at several sizes.
 ImageF3 pattern_picture(Size size, std::uint64_t seed);
+/// A plane of 128x128 that repeats, in waves of `period` texels: so smooth that it does not matter
+/// how it is filtered, and so steep that half a pixel shows.
+ImageF3 smooth_plane(float period = 64);
 
 }  // namespace weft::test

@@ -1,5 +1,6 @@
 // The texture plane and the ST-maps, which other programs rebuild the texture from.
 #include <cmath>
+#include <cstdlib>
 
 #include "engine/color/color_space.h"
 #include "engine/media/image_files.h"
@@ -19,23 +20,6 @@ Words unlit(const Words& more) {
     Words words = kUnlit;
     words.insert(words.end(), more.begin(), more.end());
     return words;
-}
-
-// Waves of `period` px, so smooth that it does not matter how a pixel is filtered, and so steep
-// that half a pixel shows.
-ImageF3 waves(Size size, float period) {
-    ImageF3 out(size);
-    for (int y = 0; y < size.height; ++y) {
-        for (int x = 0; x < size.width; ++x) {
-            const float turn = 6.2831853f / period;
-            const float u = turn * static_cast<float>(x), v = turn * static_cast<float>(y);
-            float* p = out.pixel(x, y);
-            p[0] = 0.5f + 0.3f * std::sin(u);
-            p[1] = 0.5f + 0.3f * std::sin(v);
-            p[2] = 0.5f + 0.2f * std::sin(u + v);
-        }
-    }
-    return out;
 }
 
 class Exports : public CliTest {
@@ -101,7 +85,7 @@ Difference rebuilt(const ImageF3& plane, const ImageF2& st, const PlateFrame& pa
 
 TEST_F(Exports, ThePlaneAndTheLayerStGiveThePatchAgain) {
     make_shot(3);
-    put_picture("waves.png", waves({128, 128}, 64), PixelDepth::kU16);
+    put_picture("waves.png", smooth_plane(), PixelDepth::kU16);
     for (const char* format : {"png", "exr"}) {
         SCOPED_TRACE(format);
         const std::string plane = std::string("plane.") + format;
@@ -121,7 +105,7 @@ TEST_F(Exports, ThePlaneAndTheLayerStGiveThePatchAgain) {
 
 TEST_F(Exports, AGrownPlaneIsWrittenAsItIsLookedUp) {
     make_shot(2);
-    put_picture("waves.png", waves({128, 128}, 32), PixelDepth::kU16);
+    put_picture("waves.png", smooth_plane(32), PixelDepth::kU16);
     expect_success(run_replace(
         unlit({"--plane", "", "--texture", "waves.png", "--texture-mode", "synthesize", "--layers",
                "st,patch", "--layers-output", "layers/####.exr", "--export-plane", "plane.exr"})));
@@ -159,6 +143,40 @@ TEST_F(Exports, StMapsPointToTheReferenceFrameAndBack) {
     EXPECT_GT(compared, 1000);
     EXPECT_EQ(shown->alpha.at(4, 4), 0.0f);
     EXPECT_EQ(shown->rgb.at(4, 4, 2), 0.0f);
+}
+
+// oiiotool counts t from the top unless it is told otherwise. The rim counts, too.
+TEST_F(Exports, OiiotoolShowsWhatTheMapsSay) {
+    if (std::system("oiiotool --version > /dev/null 2>&1") != 0)
+        GTEST_SKIP() << "SKIPPED: there is no oiiotool (apt install openimageio-tools)";
+    make_shot(3);
+    expect_success(run_replace({"--quality", "final", "--export-st-maps", "st/####.exr"}));
+    ImageF3 ramp(Card::kPlate);  // colours that are their own places
+    for (int y = 0; y < ramp.height(); ++y) {
+        for (int x = 0; x < ramp.width(); ++x) {
+            ramp.at(x, y, 0) = (static_cast<float>(x) + 0.5f) / 160;
+            ramp.at(x, y, 1) = 1 - (static_cast<float>(y) + 0.5f) / 120;
+        }
+    }
+    put_picture("ramp.exr", ramp, PixelDepth::kFloat);
+    const std::string command = "cd '" + folder_.string() +
+                                "' && oiiotool ramp.exr st/0003.exr --st_warp:flip_t=1 "
+                                "-d float -o shown.exr";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const PlateFrame shown = picture("shown.exr"), map = picture("st/0003.exr");
+    float worst = 0;
+    int compared = 0;
+    for (int y = 0; y < 120; ++y) {
+        for (int x = 0; x < 160; ++x) {
+            if (map.alpha.at(x, y) < 1) continue;
+            ++compared;
+            worst =
+                std::max(worst, std::hypot(160 * (shown.rgb.at(x, y, 0) - map.rgb.at(x, y, 0)),
+                                           120 * (shown.rgb.at(x, y, 1) - map.rgb.at(x, y, 1))));
+        }
+    }
+    EXPECT_GT(compared, 4700);
+    EXPECT_LT(worst, 0.1f);
 }
 
 TEST_F(Exports, WhatCannotBeWrittenIsRefusedBeforeAnyWork) {

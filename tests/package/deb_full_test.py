@@ -13,7 +13,8 @@ SKIP = 77
 MIRROR = os.environ.get("WEFT_DEBIAN_MIRROR", "http://deb.debian.org/debian")
 EXPECTED = ["usr/share/applications/io.weft.Weft.desktop", "usr/share/icons/hicolor/scalable/apps/io.weft.Weft.svg",
             "usr/share/mime/packages/weft.xml", "usr/share/metainfo/io.weft.Weft.metainfo.xml", "usr/share/man/man1/weft.1",
-            "usr/share/bash-completion/completions/weft", "usr/share/doc/weft/copyright", "usr/lib/python3/dist-packages/weft/__init__.py"]
+            "usr/share/bash-completion/completions/weft", "usr/share/doc/weft/copyright", "usr/lib/python3/dist-packages/weft/__init__.py",
+            "usr/lib/python3/dist-packages/weft/py.typed", "usr/share/weft/blender/weft_blender/__init__.py"]
 
 
 def skip(why):

@@ -140,7 +140,7 @@ Expected<Json> layers_from_1(const std::string& text) {
     if (text == "all") {
         // All that there were.
         for (const LayerInfo& layer : kLayers)
-            if (!shows_form(layer.kind)) list.push_back(layer.name);
+            if (layer.kind < LayerKind::kTexture) list.push_back(layer.name);
         return list;
     }
     for (const std::string_view name : split(text, ','))
