@@ -6,7 +6,7 @@
 #include "texture_db/describe/picture_file.h"
 #include "texture_db/describe/sample_codec.h"
 #include "texture_db/sources/packages.h"
-#include "texture_db/sources/zip_reader.h"
+#include "engine/media/zip_reader.h"
 
 namespace weft {
 namespace {

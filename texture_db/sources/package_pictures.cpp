@@ -11,7 +11,7 @@
 #include "texture_db/sources/copyright_file.h"
 #include "texture_db/sources/import.h"
 #include "texture_db/sources/picture_corrections.h"
-#include "texture_db/sources/zip_reader.h"
+#include "engine/media/zip_reader.h"
 
 namespace weft {
 namespace {

@@ -20,7 +20,7 @@ import json
 import os
 import subprocess
 
-__all__ = ["Error", "run", "version", "replace", "render", "form", "motion", "matte", "synth", "bench", "measure", "study",
+__all__ = ["Error", "run", "version", "replace", "render", "flatten", "form", "motion", "matte", "synth", "bench", "measure", "study",
            "diff", "verify", "cryptomatte", "demo", "new", "region_add", "region_set", "region_remove", "region_correct",
            "region_list", "apply", "info", "validate", "look_save", "look_apply", "collect", "submit", "task",
            "trust", "doctor", "schema", "texture_build", "texture_import", "texture_search", "texture_list", "texture_similar",
@@ -109,6 +109,11 @@ def render(project, **options):
 def form(project=None, **options):
     """weft form: the list of what form is found for each region of a project, or of plate= and matte=."""
     return run("form", *([] if project is None else [project]), **options)["forms"]
+
+
+def flatten(project, output=None, **options):
+    """weft flatten: writes a region's surface as one still, unlit picture, or, with back=FILE, takes a painted one back."""
+    return run("flatten", project, output=output, **options)
 
 
 def motion(project, output, **options):
