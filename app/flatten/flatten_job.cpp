@@ -173,8 +173,8 @@ Expected<FlattenResult> run_flatten(const FlattenSpec& spec, const CancelToken& 
     WEFT_CHECK_OK(open_flat(run));
     WEFT_CHECK_OK(analyse_flat(run));
     WEFT_TRY(scene, scene_of(run));
-    const FlatInputs inputs{*run.shot->source, run.flat.plan, *run.store,
-                            run.flat.region,   scene,         run.flat.frames};
+    const FlatInputs inputs{*run.shot->source, run.flat.plan,  *run.store, run.flat.region, scene,
+                            *run.backend,      run.flat.frames};
     WEFT_CHECK_OK(choose_layout(run, inputs));
     WEFT_TRY(surface, gather_flat_surface(inputs, run.result.layout, cancel, progress));
     note_coverage(surface, run.result);

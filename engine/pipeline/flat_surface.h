@@ -23,6 +23,7 @@ struct FlatInputs {
     const AnalysisStore& store;
     int region = 0;
     const RegionScene& scene;
+    const Backend& backend;
     std::vector<int> frames;
 };
 
@@ -32,9 +33,11 @@ struct FlatInputs {
 
 /// Gathers the frames. What differs from most of what a place shows over time (a shadow that
 /// passes, gloss, an edge that a matte missed) does not count: an M-estimate about the median, as
-/// mosaics are made (Szeliski 2006, "Image alignment and stitching", 5.3). Takes about 16 bytes a
-/// texel and frame, at most 512 MB besides the frames at work. The same bytes for any number of
-/// threads. Errors: the same; RenderFailed if no frame shows anything.
+/// mosaics are made (Szeliski 2006, "Image alignment and stitching", 5.3). What a render of the
+/// picture then lacks of each frame is put back on it a few times (iterative back-projection, Irani
+/// & Peleg 1991), since a pixel shows the mean of the texels under it. Takes about 16 bytes a texel
+/// and frame, at most 512 MB, and as much for the frames. The same bytes for any number of threads.
+/// Errors: the same; RenderFailed if no frame shows anything.
 [[nodiscard]] Expected<FlatSurface> gather_flat_surface(const FlatInputs& inputs,
                                                         const FlatLayout& layout,
                                                         const CancelToken& cancel,

@@ -237,6 +237,37 @@ Recti places_of(const UnlitFrame& frame, Size plate, int most_px) {
     return out;
 }
 
+UnlitFrame beyond_plane(const UnlitFrame& frame, const FlatLayout& layout,
+                        const PlanePyramid& plane, const Backend& backend) {
+    UnlitFrame out = frame;
+    if (frame.box.empty()) return out;
+    const Size size = frame.box.size();
+    ImageF2 coords(size);
+    Matte matte(size);
+    parallel_rows(size.height, 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                const Vec2 p(static_cast<float>(frame.box.x0 + x) + 0.5f,
+                             static_cast<float>(frame.box.y0 + y) + 0.5f);
+                const Vec2 u = layout.texel(p + frame.ref_from_cur.at(p));
+                coords.pixel(x, y)[0] = u.x, coords.pixel(x, y)[1] = u.y;
+                matte.at(x, y) = frame.trust.at(x, y) > 0 ? 255 : 0;
+            }
+        }
+    });
+    ImageF3 shown(size);
+    SampleRequest request;
+    request.plane = &plane;
+    request.coords = coords;
+    request.matte = matte;
+    request.quality = SampleQuality::kFinal;
+    backend.sample_plane(request, shown);
+    const auto count = static_cast<std::ptrdiff_t>(shown.size_bytes() / sizeof(float));
+    std::transform(out.colour.data(), out.colour.data() + count, shown.data(), out.colour.data(),
+                   [](float lit, float is) { return lit - is; });
+    return out;
+}
+
 FlatView flat_view(const UnlitFrame& frame, const FlatLayout& layout, int first_row, int end_row) {
     const Size size{layout.size().width, end_row - first_row};
     FlatView out{ImageF3(size), ImageF1(size)};

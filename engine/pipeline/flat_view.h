@@ -1,6 +1,7 @@
 #pragma once
 // What one frame shows of a surface, without its light.
 
+#include "engine/compute/backend.h"
 #include "engine/core/error.h"
 #include "engine/core/image.h"
 #include "engine/motion/lattice_field.h"
@@ -29,6 +30,11 @@ struct UnlitFrame {
 /// The box of places on the reference frame, px, that the frame's surface takes; at most `most_px`
 /// beyond `plate` on each side.
 [[nodiscard]] Recti places_of(const UnlitFrame& frame, Size plate, int most_px);
+
+/// What the frame shows beyond a render of the flat picture `plane` (of the layout): its colour is
+/// the difference. Thread-safe.
+[[nodiscard]] UnlitFrame beyond_plane(const UnlitFrame& frame, const FlatLayout& layout,
+                                      const PlanePyramid& plane, const Backend& backend);
 
 /// A frame on rows of the flat picture.
 struct FlatView {
