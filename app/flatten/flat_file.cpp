@@ -51,7 +51,10 @@ Expected<std::vector<std::string>> write_flat_file(const std::string& path,
     const bool linear = ending_of(path) == ".exr";
     WEFT_TRY(surface, encoded(pictures.surface.colour, spaces, linear ? "linear" : "srgb"));
     const ImageF1 alpha = alpha_of(pictures.surface.coverage);
-    write.depth = linear ? PixelDepth::kFloat : PixelDepth::kU16;
+    // Krita asks for the profile of a PNG with 16 bits, and proposes a linear one.
+    write.depth = linear                      ? PixelDepth::kFloat
+                  : ending_of(path) == ".png" ? PixelDepth::kU8
+                                              : PixelDepth::kU16;
     write.exr_compression = "zip";
     write.pixel_aspect = 1;
     if (!is_open_raster(path)) {

@@ -146,7 +146,7 @@ void note_coverage(const FlatSurface& surface, FlattenResult& result) {
     result.few_frames = covered > 0 ? static_cast<double>(few) / static_cast<double>(covered) : 0;
 }
 
-// What a file with 16 bits cannot hold.
+// What a file of integers cannot hold.
 void warn_of_white(const FlatRun& run, const FlatSurface& surface,
                    std::vector<std::string>& warnings) {
     if (run.spec.path.ends_with(".exr")) return;

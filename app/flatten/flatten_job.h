@@ -40,14 +40,14 @@ struct FlattenResult {
 };
 
 /// Analyses what is missing, as a render of the project with the plate's light would, and gathers
-/// the picture: gather_flat_surface(). PNG and TIFF have 16 bits, EXR 32-bit floats in linear
-/// light; all have the coverage as alpha. An .ora has the surface, above it, hidden, the region's
-/// texture as it lies there (if it has one), and an empty layer to paint on. The file appears whole
-/// or not at all, and its bytes depend on neither threads nor time. Sets the process's thread
-/// count. Errors: those of opening the shot and analysing it; Usage (no such region, one that is
-/// not in locked mode, a margin or a kind of file that there is not, a file that exists),
-/// MissingFrames, RenderFailed if no frame shows the surface, NoSpace; an input that changed
-/// meanwhile; cancellation.
+/// the picture: gather_flat_surface(). PNG and .ora have 8 bits, TIFF 16, EXR 32-bit floats
+/// in linear light; all have the coverage as alpha. An .ora has the surface, above it, hidden, the
+/// region's texture as it lies there (if it has one), and an empty layer to paint on. The file
+/// appears whole or not at all, and its bytes depend on neither threads nor time. Sets the
+/// process's thread count. Errors: those of opening the shot and analysing it; Usage (no such
+/// region, one that is not in locked mode, a margin or a kind of file that there is not, a file
+/// that exists), MissingFrames, RenderFailed if no frame shows the surface, NoSpace; an input that
+/// changed meanwhile; cancellation.
 [[nodiscard]] Expected<FlattenResult> run_flatten(const FlattenSpec& spec,
                                                   const CancelToken& cancel,
                                                   const ProgressFn& progress);

@@ -19,7 +19,8 @@ struct OpenRasterLayer {
     bool visible = true;
 };
 
-/// Writes layers of one size, bottom first, with 16 bits. `options`: rule and metadata. The same
+/// Writes layers of one size, bottom first, with 8 bits: Krita asks for a profile of each picture
+/// with 16, and proposes a linear one. NaN is black. `options`: rule and metadata. The same
 /// bytes for the same pictures. Errors: as write_image(); Usage if layers differ in size.
 [[nodiscard]] Status write_open_raster(const std::string& path,
                                        const std::vector<OpenRasterLayer>& layers,

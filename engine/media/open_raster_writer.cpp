@@ -29,24 +29,24 @@ struct Picture {
     ImageF1 alpha;
 };
 
-std::uint16_t sample_of(float v) {
-    return static_cast<std::uint16_t>(std::clamp(v, 0.0f, 1.0f) * 65535.0f + 0.5f);
+std::uint8_t sample_of(float v) {
+    return v > 0 ? static_cast<std::uint8_t>(std::min(v, 1.0f) * 255.0f + 0.5f) : std::uint8_t{0};
 }
 
 EncodedFile png_of(ViewF3 rgb, ViewF1 alpha, const WriteOptions& options) {
-    std::vector<std::uint16_t> samples;
+    std::vector<std::uint8_t> samples;
     samples.reserve(4 * static_cast<std::size_t>(rgb.width()) *
                     static_cast<std::size_t>(rgb.height()));
     for (int y = 0; y < rgb.height(); ++y) {
         for (int x = 0; x < rgb.width(); ++x) {
             for (int c = 0; c < 3; ++c)
                 samples.push_back(sample_of(rgb.pixel(x, y)[c]));
-            samples.push_back(alpha.empty() ? 65535 : sample_of(alpha.pixel(x, y)[0]));
+            samples.push_back(alpha.empty() ? std::uint8_t{255} : sample_of(alpha.pixel(x, y)[0]));
         }
     }
     WriteOptions png = options;
-    png.depth = PixelDepth::kU16;
-    return encode_png({rgb.size(), 4, SampleKind::kU16, samples.data()}, png);
+    png.depth = PixelDepth::kU8;
+    return encode_png({rgb.size(), 4, SampleKind::kU8, samples.data()}, png);
 }
 
 // The visible layers over each other, in their encoded colours as programs do it.
