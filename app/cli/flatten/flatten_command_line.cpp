@@ -16,12 +16,12 @@ struct FlattenFlags {
 };
 
 void add_flatten_flags(CLI::App& command, FlattenFlags& flags) {
-    CLI::Option* output = command.add_option("-o,--output", flags.spec.path,
-                                             "Picture to write: .ora (with layers), .png, .tif, "
-                                             ".exr");
-    output->type_name("FILE");
+    command
+        .add_option("-o,--output", flags.spec.path,
+                    "Picture to write: .ora (with layers), .png, .tif, "
+                    ".exr")
+        ->type_name("FILE");
     command.add_option("--back", flags.back, "Take a painted picture back as the region's texture")
-        ->excludes(output)
         ->type_name("FILE");
     command.add_option("--region", flags.spec.region, "Name or id of the region [the only one]")
         ->type_name("NAME");
@@ -41,6 +41,8 @@ void add_flatten_flags(CLI::App& command, FlattenFlags& flags) {
 
 CommandResult run_flatten_flags(FlattenFlags& flags) {
     FlattenSpec& spec = flags.spec;
+    if (!flags.back.empty() && !spec.path.empty())
+        return fail(ErrorCode::kUsage, "-o and --back contradict each other.", "Leave one out.");
     if (!flags.back.empty()) {
         WEFT_TRY(project, load_project(flags.project));
         if (spec.region.empty() && project.regions.size() == 1)
