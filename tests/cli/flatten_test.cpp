@@ -224,11 +224,15 @@ TEST_F(FlattenCommand, TakesNoPictureBackThatIsNotOne) {
     put("broken.ora", broken);
     refused("broken.ora", 3, {"broken.ora"});
     std::string other = ora;
-    for (std::size_t k = other.find("image/openraster"); k != std::string::npos;
-         k = std::string::npos)
-        other.replace(k, 16, "text/plain      ");
+    other.replace(other.find("image/openraster"), 16, "text/plain      ");
     put("other.ora", other);
     refused("other.ora", 3, {"other.ora"});
+    // A path that leads out of the archive is none of its pictures.
+    std::string out = ora;
+    for (std::size_t k = 0; (k = out.find("mergedimage.png", k)) != std::string::npos;)
+        out.replace(k, 15, "../../image.png");
+    put("out.ora", out);
+    refused("out.ora", 3, {"out.ora", "mergedimage.png"});
     put("text.ora", "not a picture");
     refused("text.ora", 3, {"text.ora"});
     refused("missing.ora", 3, {"missing.ora"});
@@ -238,14 +242,16 @@ TEST_F(FlattenCommand, TakesNoPictureBackThatIsNotOne) {
     refused("cropped.png", 2, {"cropped.png", "200x140"});
 }
 
-// NaN and black in a picture are no reason to stop, and what is transparent is filled.
+// What is transparent shows what is around it, not what is stored there.
 TEST_F(FlattenCommand, APictureWithHolesGoesOnAroundThem) {
     make_project(3);
     expect_success(flatten("card.exr", {"--texels", "1", "--margin", "0"}));
     PlateFrame flat = read("card.exr");
     for (int y = 50; y < 60; ++y)
-        for (int x = 60; x < 70; ++x)
+        for (int x = 60; x < 70; ++x) {
             flat.alpha.at(x, y) = 0;
+            std::fill_n(flat.rgb.pixel(x, y), 3, 0.0f);
+        }
     WriteOptions write;
     write.depth = PixelDepth::kFloat;
     write.rule.existing = Existing::kReplace;
