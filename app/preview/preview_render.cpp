@@ -39,6 +39,13 @@ std::map<RegionId, std::string> samples_of(const Shot& shot) {
     return out;
 }
 
+std::vector<std::string> given_planes(const Project& project) {
+    std::vector<std::string> out;
+    for (const Leaf<Region>& region : project.regions)
+        if (region->enabled && !region->texture.plane.empty()) out.push_back(region->texture.plane);
+    return out;
+}
+
 }  // namespace
 
 Preview::Impl::Impl(AnalysisCacheOptions cache_options, std::string library, std::size_t budget)
@@ -196,11 +203,7 @@ Expected<std::shared_ptr<const Shot>> Preview::Impl::open(const Project& project
 
 bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& pixels) {
     set_state(PreviewView::State::kOpening);
-    std::vector<std::string> pictures;
-    for (const Leaf<Region>& region : now.project.regions)
-        if (region->enabled && !region->texture.plane.empty())
-            pictures.push_back(region->texture.plane);
-    planes.watch(pictures);
+    planes.watch(given_planes(now.project));
     auto fresh = std::make_shared<OpenedShot>(
         OpenedShot{nullptr, nullptr, pixels, analysis_key(now.project), now.document, now.project});
     std::vector<std::string> warnings;
