@@ -223,7 +223,7 @@ struct Preview::Impl {
     std::set<int> compared;   // frames whose flicker was measured
     std::string noted_forms;  // key of the shot whose forms were noted
     bool refine_pending = false;
-    FileWatch planes;               ///< Pictures used as textures, which are painted on meanwhile.
+    FileWatch given;                ///< Pictures used as textures, which are painted on meanwhile.
     std::string tried_provisional;  // key of the last provisional picture that was tried
     std::vector<bool> shown_provisionally;  // its regions
     std::optional<KeptProvisional> kept_provisional;

@@ -90,7 +90,7 @@ void Preview::Impl::render_loop() {
             const auto signalled = [&] { return shared->stop || shared->signals != seen; };
             if (refine_pending)
                 wake.wait_until(shared.lock(), shared->refine_at, signalled);
-            else if (!planes.empty())
+            else if (!given.empty())
                 wake.wait_for(shared.lock(), FileWatch::kLook, signalled);
             else
                 wake.wait(shared.lock(), signalled);
@@ -110,7 +110,7 @@ bool Preview::Impl::step() {
     PreviewRequest now;
     std::string pixels;
     refine_pending = false;
-    const bool painted = planes.saved();
+    const bool painted = given.saved();
     {
         const auto shared = guarded.lock();
         if (painted) shared->failed_pixels.clear();
@@ -203,7 +203,7 @@ Expected<std::shared_ptr<const Shot>> Preview::Impl::open(const Project& project
 
 bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& pixels) {
     set_state(PreviewView::State::kOpening);
-    planes.watch(given_planes(now.project));
+    given.watch(given_planes(now.project));
     auto fresh = std::make_shared<OpenedShot>(
         OpenedShot{nullptr, nullptr, pixels, analysis_key(now.project), now.document, now.project});
     std::vector<std::string> warnings;
