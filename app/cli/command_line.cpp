@@ -56,6 +56,7 @@ void add_commands(CLI::App& app, CommandResult& result, const EditCommand& edit)
     add_render_commands(app, result);
     add_form_command(app, result);
     add_motion_command(app, result);
+    add_flatten_command(app, result);
     add_project_commands(app, result);
     add_synth_commands(app, result);
     add_tool_commands(app, result);

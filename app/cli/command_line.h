@@ -19,6 +19,7 @@ struct RunOptions;
 void add_commands(CLI::App& app, CommandResult& result, const EditCommand& edit);
 
 void add_render_commands(CLI::App& app, CommandResult& result);
+void add_flatten_command(CLI::App& app, CommandResult& result);
 void add_form_command(CLI::App& app, CommandResult& result);
 void add_motion_command(CLI::App& app, CommandResult& result);
 void add_project_commands(CLI::App& app, CommandResult& result);

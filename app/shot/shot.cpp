@@ -19,6 +19,7 @@
 #include "engine/core/luma.h"
 #include "engine/core/setting.h"
 #include "engine/media/sequence_pattern.h"
+#include "engine/pipeline/opaque_picture.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/synthesis/texture_plane.h"
 #include "texture_db/library/library.h"
@@ -270,7 +271,8 @@ class ShotOpener {
                                      std::to_string(picture.nonfinite) +
                                      " pixels of NaN or infinity; they are taken as black.");
         }
-        if (std::string clear = transparency_warning(path, picture.alpha); !clear.empty())
+        if (std::string clear = transparency_warning(path, picture.alpha);
+            !clear.empty() && !is_plane)
             shot_.warnings.push_back(std::move(clear));
         OpenTexture out;
         out.pixels = std::move(picture.rgb);
@@ -280,6 +282,8 @@ class ShotOpener {
             std::replace_if(
                 row, row + out.pixels.stride(), [](float v) { return !std::isfinite(v); }, 0.0f);
         }
+        // Of a sample each pixel may lie beside any other: there alpha is not used.
+        if (is_plane) make_opaque(out.pixels, picture.alpha, picture.alpha_kind);
         Hasher hasher;
         hasher.image(out.pixels);
         out.named = {region.name,

@@ -247,11 +247,9 @@ Expected<Raster> read_open(const InputFile& file, const std::string& path, bool 
 }
 
 template <class F>
-auto with_file(const std::string& path, const F& body)
-    -> decltype(body(std::declval<const InputFile&>())) {
-    WEFT_TRY(file, InputFile::open(path));
+auto guarded_png(const std::string& path, const F& body) -> decltype(body()) {
     try {
-        return body(file);
+        return body();
     } catch (const PngFailure& failure) {
         return tl::unexpected(damaged(path, "PNG, " + failure.reason));
     } catch (const std::bad_alloc&) {
@@ -259,25 +257,39 @@ auto with_file(const std::string& path, const F& body)
     }
 }
 
+bool has_signature(const InputFile& file) {
+    png_byte signature[8] = {};
+    const auto got = file.read_at(0, signature, sizeof signature);
+    return got && *got == sizeof signature && png_sig_cmp(signature, 0, sizeof signature) == 0;
+}
+
 }  // namespace
 
 bool is_png(const std::string& path) {
     const auto file = InputFile::open(path);
-    png_byte signature[8] = {};
-    return file && file->read_at(0, signature, sizeof signature) == sizeof signature &&
-           png_sig_cmp(signature, 0, sizeof signature) == 0;
+    return file && has_signature(*file);
 }
 
-Expected<RasterInfo> probe_png(const std::string& path) {
-    return with_file(path, [&](const InputFile& file) -> Expected<RasterInfo> {
+Expected<RasterInfo> probe_png(const InputFile& file, const std::string& path) {
+    return guarded_png(path, [&]() -> Expected<RasterInfo> {
         const PngHandle handle(file);
         WEFT_CHECK_OK(read_header(handle, path));
         return handle.info_as_seen();
     });
 }
 
+Expected<RasterInfo> probe_png(const std::string& path) {
+    WEFT_TRY(file, InputFile::open(path));
+    return probe_png(file, path);
+}
+
+Expected<Raster> read_png(const InputFile& file, const std::string& path, bool raw_codes) {
+    return guarded_png(path, [&] { return read_open(file, path, raw_codes); });
+}
+
 Expected<Raster> read_png(const std::string& path, bool raw_codes) {
-    return with_file(path, [&](const InputFile& file) { return read_open(file, path, raw_codes); });
+    WEFT_TRY(file, InputFile::open(path));
+    return read_png(file, path, raw_codes);
 }
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "engine/core/input_file.h"
 #include "engine/media/raster.h"
 
 namespace weft {
@@ -12,5 +13,9 @@ namespace weft {
 [[nodiscard]] bool is_png(const std::string& path);
 [[nodiscard]] Expected<RasterInfo> probe_png(const std::string& path);
 [[nodiscard]] Expected<Raster> read_png(const std::string& path, bool raw_codes);
+/// The same of a file that is open, or in memory. `path` is for messages.
+[[nodiscard]] Expected<RasterInfo> probe_png(const InputFile& file, const std::string& path);
+[[nodiscard]] Expected<Raster> read_png(const InputFile& file, const std::string& path,
+                                        bool raw_codes);
 
 }  // namespace weft

@@ -13,6 +13,7 @@
 
 #include "engine/media/channel_choice.h"
 #include "engine/media/icc_profile.h"
+#include "engine/media/open_raster_reader.h"
 #include "engine/media/orientation.h"
 #include "engine/media/picture_file.h"
 #include "engine/media/plate_decode.h"
@@ -348,6 +349,11 @@ bool goes_to_libpng(const std::string& path, const RasterRequest& request) {
     return request.layer.empty() && request.channel.empty() && is_png(path);
 }
 
+// The same holds for the merged picture of an archive of layers.
+bool is_layered(const std::string& path, const RasterRequest& request) {
+    return request.layer.empty() && request.channel.empty() && is_zip(path);
+}
+
 }  // namespace
 
 Expected<ColourPlace> locate_colour(const std::string& path, const std::string& layer) {
@@ -368,12 +374,14 @@ Expected<ColourPlace> locate_colour(const std::string& path, const std::string& 
 
 Expected<RasterInfo> probe_raster(const std::string& path, const RasterRequest& request) {
     return guarded(path, [&] {
+        if (is_layered(path, request)) return probe_layered(path);
         return goes_to_libpng(path, request) ? probe_png(path) : probe_oiio(path, request);
     });
 }
 
 Expected<Raster> read_raster(const std::string& path, const RasterRequest& request) {
     return guarded(path, [&] {
+        if (is_layered(path, request)) return read_layered(path);
         return goes_to_libpng(path, request) ? read_png(path, request.raw_codes)
                                              : read_oiio(path, request);
     });

@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/media/zip_reader.h"
 #include "tests/texture_db/scratch.h"
 #include "texture_db/describe/picture_file.h"
 #include "texture_db/describe/sample_codec.h"
 #include "texture_db/sources/packages.h"
-#include "texture_db/sources/zip_reader.h"
 
 namespace weft {
 namespace {

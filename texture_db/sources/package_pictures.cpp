@@ -7,11 +7,11 @@
 #include "engine/core/input_file.h"
 #include "engine/core/text.h"
 #include "engine/media/atomic_file.h"
+#include "engine/media/zip_reader.h"
 #include "texture_db/describe/material_words.h"
 #include "texture_db/sources/copyright_file.h"
 #include "texture_db/sources/import.h"
 #include "texture_db/sources/picture_corrections.h"
-#include "texture_db/sources/zip_reader.h"
 
 namespace weft {
 namespace {

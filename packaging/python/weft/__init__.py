@@ -20,8 +20,8 @@ raises Error when the command fails. Every function also takes progress=, called
 and cancel=, a Cancel that stops it from another thread. The program is the one named by the environment variable WEFT,
 else `weft` on the PATH.
 """
-from ._commands import (apply, bench, collect, cryptomatte, demo, diff, doctor, edit, form, info, look_apply, look_save,
-                        matte, measure, motion, new, region_add, region_correct, region_list, region_remove, region_set,
+from ._commands import (apply, bench, collect, cryptomatte, demo, diff, doctor, edit, flatten, form, info, look_apply,
+                        look_save, matte, measure, motion, new, region_add, region_correct, region_list, region_remove, region_set,
                         render, replace, schema, study, submit, synth, task, texture_build, texture_evaluate,
                         texture_export, texture_import, texture_info, texture_kept, texture_list, texture_mark,
                         texture_model, texture_recommend, texture_search, texture_similar, texture_stats, texture_train,
@@ -31,7 +31,7 @@ from ._project import Project, Region
 from ._run import Answer, Cancel, Cancelled, Error, Progress, ProgressFn, Value, program, run
 
 __all__ = ["Answer", "Cancel", "Cancelled", "Error", "Library", "Progress", "ProgressFn", "Project", "Region", "Value",
-           "program", "run", "version", "replace", "render", "form", "motion", "matte", "synth", "bench", "measure",
+           "program", "run", "version", "replace", "render", "flatten", "form", "motion", "matte", "synth", "bench", "measure",
            "study", "diff", "verify", "cryptomatte", "demo", "new", "region_add", "region_set", "region_remove",
            "region_correct", "region_list", "apply", "info", "validate", "look_save", "look_apply", "collect", "submit",
            "task", "trust", "doctor", "schema", "texture_build", "texture_import", "texture_search", "texture_list",

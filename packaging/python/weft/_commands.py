@@ -26,6 +26,11 @@ def render(project: PathOrText, **options: Any) -> Answer:
     return run("render", project, **options)
 
 
+def flatten(project: PathOrText, output: Optional[PathOrText] = None, **options: Any) -> Answer:
+    """weft flatten: writes a region's surface as one still, unlit picture, or, with back=FILE, takes a painted one back."""
+    return run("flatten", project, output=output, **options)
+
+
 def form(project: Optional[PathOrText] = None, **options: Any) -> List[Answer]:
     """weft form: the list of what form is found for each region of a project, or of plate= and matte=."""
     return cast("List[Answer]", run("form", *([] if project is None else [project]), **options)["forms"])

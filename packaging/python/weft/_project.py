@@ -130,6 +130,11 @@ class Project:
         """Writes the motion of each region for other programs into a folder; returns what motion.json says."""
         return run("motion", self.path, progress=progress, cancel=cancel, output=output, **options)
 
+    def flatten(self, output: Optional[PathOrText] = None, progress: Optional[ProgressFn] = None,
+                cancel: Optional[Cancel] = None, **options: Any) -> Answer:
+        """Writes a region's surface as one still, unlit picture, or, with back=FILE, takes a painted one back."""
+        return run("flatten", self.path, progress=progress, cancel=cancel, output=output, **options)
+
     def collect(self, folder: PathOrText, **options: Any) -> Answer:
         """Copies all its files into one folder."""
         return _commands.collect(self.path, folder, **options)

@@ -1,4 +1,4 @@
-#include "texture_db/sources/zip_reader.h"
+#include "engine/media/zip_reader.h"
 
 #include <zip.h>
 
@@ -77,13 +77,15 @@ Error read_error(const std::string& what, const zip_error_t* error) {
         case ZIP_ER_CRC:
             return {ErrorCode::kUnreadable,
                     what + " has a wrong checksum.",
-                    "Download the archive again.",
+                    "Save it again, or download it again.",
                     {}};
         case ZIP_ER_MEMORY:
             return {ErrorCode::kNoSpace, "Out of memory while unpacking " + what + ".", {}, {}};
         default:
-            return {
-                ErrorCode::kUnreadable, what + " is damaged.", "Download the archive again.", {}};
+            return {ErrorCode::kUnreadable,
+                    what + " is damaged.",
+                    "Save it again, or download it again.",
+                    {}};
     }
 }
 
@@ -237,7 +239,8 @@ Expected<std::string> ZipReader::read(const ZipEntry& entry) {
     const zip_int64_t beyond = zip_fread(file.get(), &more, 1);
     if (beyond < 0) return tl::unexpected(read_error(what, zip_file_get_error(file.get())));
     if (beyond > 0 || got != entry.bytes) {
-        return fail(ErrorCode::kUnreadable, what + " is damaged.", "Download the archive again.");
+        return fail(ErrorCode::kUnreadable, what + " is damaged.",
+                    "Save it again, or download it again.");
     }
     return out;
 }
