@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/base/file_watch.h"
 #include "app/base/guarded.h"
 #include "app/preview/matte_propagator.h"
 #include "app/preview/preview.h"
@@ -223,8 +222,7 @@ struct Preview::Impl {
     std::set<int> compared;   // frames whose flicker was measured
     std::string noted_forms;  // key of the shot whose forms were noted
     bool refine_pending = false;
-    FileWatch given;                ///< Pictures used as textures, which are painted on meanwhile.
-    std::string tried_provisional;  // key of the last provisional picture that was tried
+    std::string tried_provisional;          // key of the last provisional picture that was tried
     std::vector<bool> shown_provisionally;  // its regions
     std::optional<KeptProvisional> kept_provisional;
     OpenedPtr settled;  // the last one of the same plate whose analysis had come to an end

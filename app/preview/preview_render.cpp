@@ -39,13 +39,6 @@ std::map<RegionId, std::string> samples_of(const Shot& shot) {
     return out;
 }
 
-std::vector<std::string> given_planes(const Project& project) {
-    std::vector<std::string> out;
-    for (const Leaf<Region>& region : project.regions)
-        if (region->enabled && !region->texture.plane.empty()) out.push_back(region->texture.plane);
-    return out;
-}
-
 }  // namespace
 
 Preview::Impl::Impl(AnalysisCacheOptions cache_options, std::string library, std::size_t budget)
@@ -90,8 +83,6 @@ void Preview::Impl::render_loop() {
             const auto signalled = [&] { return shared->stop || shared->signals != seen; };
             if (refine_pending)
                 wake.wait_until(shared.lock(), shared->refine_at, signalled);
-            else if (!given.empty())
-                wake.wait_for(shared.lock(), FileWatch::kLook, signalled);
             else
                 wake.wait(shared.lock(), signalled);
             if (shared->stop) return;
@@ -110,16 +101,14 @@ bool Preview::Impl::step() {
     PreviewRequest now;
     std::string pixels;
     refine_pending = false;
-    const bool painted = given.saved();
     {
         const auto shared = guarded.lock();
-        if (painted) shared->failed_pixels.clear();
         if (!shared->wanted || shared->wanted_pixels == shared->failed_pixels) return false;
         now = *shared->wanted;
         pixels = shared->wanted_pixels;
     }
     note_written(now);
-    if (!current || painted || current->pixels != pixels || current->document != now.document)
+    if (!current || current->pixels != pixels || current->document != now.document)
         return open_shot_of(now, pixels);
     if (!ready(now.frame)) {
         set_state(PreviewView::State::kAnalysing);
@@ -203,7 +192,6 @@ Expected<std::shared_ptr<const Shot>> Preview::Impl::open(const Project& project
 
 bool Preview::Impl::open_shot_of(const PreviewRequest& now, const std::string& pixels) {
     set_state(PreviewView::State::kOpening);
-    given.watch(given_planes(now.project));
     auto fresh = std::make_shared<OpenedShot>(
         OpenedShot{nullptr, nullptr, pixels, analysis_key(now.project), now.document, now.project});
     std::vector<std::string> warnings;
