@@ -11,9 +11,9 @@ namespace weft {
 namespace {
 
 // The wall with a box on every frame as the matte of each of its zones.
-class ZonedWall : public MemoryShot {
+class LightZonedWall : public MemoryShot {
   public:
-    ZonedWall() : MemoryShot(make_wall(false, false)) {}
+    LightZonedWall() : MemoryShot(make_wall(false, false)) {}
     [[nodiscard]] Expected<Matte> zone(int, int, int) const override { return box_matte(kZoneBox); }
     [[nodiscard]] Expected<Matte> zone_key(int, int zone, int frame) const override {
         EXPECT_EQ(zone, 1);
@@ -38,7 +38,7 @@ TEST(Zones, LayersOfZonesAreApartFromThoseOfMattes) {
 }
 
 TEST(Zones, FactorsMultiplyInsideAndAreOneOutside) {
-    const ZonedWall shot;
+    const LightZonedWall shot;
     RegionPlan region = make_region(flat_texture({1, 1, 1}));
     region.zones = {light_zone(0.5f), light_zone(1.0f)};
     region.zones[1].value_keys = {{{1, {2}}, {5, {0}}}};
@@ -74,7 +74,7 @@ TEST(Zones, LightIsScaledAboutItsReference) {
 }
 
 TEST(Zones, OnlyInsideOneTheTextureTakesNoLight) {
-    const ZonedWall shot;
+    const LightZonedWall shot;
     RegionPlan region = make_region(flat_texture({0.5f, 0.5f, 0.5f}));
     region.light_source = LightSource::kPainted;
     region.lamps = {{LampKind::kPoint, {{{0, {80, 56, 200, 3}}}}}};

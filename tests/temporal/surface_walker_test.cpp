@@ -266,8 +266,9 @@ TEST(SurfaceWalker, GoesOnWhenTheSurfaceComesIntoView) {
     EXPECT_LT(mean_error(walker.ref_from_cur(), shot, 1, 0), 0.2f);
 }
 
-// What turns away until it is less than a third as wide, and is not said to be a plane: the texture is let go
-// once, and what it was is carried beside it, on the surface, for the seam to choose from.
+// What turns away until it is less than a third as wide, and is not said to be a plane: the texture
+// is let go once, and what it was is carried beside it, on the surface, for the seam to choose
+// from.
 TEST(SurfaceWalker, ReleasesAStretchedTextureAndKeepsTrackingIt) {
     const WaveTexture plane(7);
     const auto width_at = [](int t) { return std::pow(0.92f, static_cast<float>(t)); };
