@@ -134,9 +134,9 @@ Status check_number(const std::string& what, const std::string& path,
     for (std::size_t k = number->begin + number->length; k < dot && k < path.size(); ++k)
         if (std::isdigit(static_cast<unsigned char>(path[k])))
             return fail(ErrorCode::kUsage,
-                        what + " " + path +
-                            " has another number after the frame's, which Fusion "
-                            "and Blender would take for it.",
+                        fmt::format("{} {} has another number after the frame's, which Fusion and "
+                                    "Blender would take for it.",
+                                    what, path),
                         "Rename the files so that the frame's number is the last.");
     return {};
 }

@@ -30,7 +30,8 @@ struct Picture {
 };
 
 std::uint8_t sample_of(float v) {
-    return v > 0 ? static_cast<std::uint8_t>(std::min(v, 1.0f) * 255.0f + 0.5f) : std::uint8_t{0};
+    return v > 0 ? static_cast<std::uint8_t>(std::lround(std::min(v, 1.0f) * 255.0f))
+                 : std::uint8_t{0};
 }
 
 EncodedFile png_of(ViewF3 rgb, ViewF1 alpha, const WriteOptions& options) {
@@ -185,6 +186,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 Expected<std::string> packed(const std::string& path, const std::vector<OpenRasterLayer>& layers,
                              const WriteOptions& options) {
     std::vector<EncodedFile> pictures;
+    pictures.reserve(layers.size());
     for (const OpenRasterLayer& layer : layers)
         pictures.push_back(png_of(layer.rgb, layer.alpha, options));
     const Picture all = merged(layers), small = thumbnail_of(all);

@@ -1,12 +1,14 @@
 // Fusion's compositions: tables in the syntax of Lua, whose tools name their sources.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tests/cli/node_trees.h"
@@ -14,16 +16,25 @@
 namespace weft::test {
 namespace {
 
+struct LuaField;
+
 struct LuaValue {
     std::string kind, text;  ///< The word before a table; a string, number or word.
-    std::vector<std::pair<std::string, LuaValue>> fields;
+    std::vector<LuaField> fields;
 
-    [[nodiscard]] const LuaValue* find(const std::string& key) const {
-        for (const auto& [name, value] : fields)
-            if (name == key) return &value;
-        return nullptr;
-    }
+    [[nodiscard]] const LuaValue* find(const std::string& key) const;
 };
+
+struct LuaField {
+    std::string name;
+    LuaValue value;
+};
+
+const LuaValue* LuaValue::find(const std::string& key) const {
+    const auto found = std::find_if(fields.begin(), fields.end(),
+                                    [&](const LuaField& field) { return field.name == key; });
+    return found == fields.end() ? nullptr : &found->value;
+}
 
 class LuaReader {
   public:
@@ -53,7 +64,7 @@ class LuaReader {
     }
 
   private:
-    std::pair<std::string, LuaValue> field() {
+    LuaField field() {
         std::string key;
         const std::size_t start = at_;
         if (peek() == '[') {
@@ -230,7 +241,7 @@ class FusionFlow {
         EXPECT_EQ(whole_.kind, "Composition");
     }
 
-    Rgba result() { return output(tools().fields.back().first); }
+    Rgba result() { return output(tools().fields.back().name); }
 
   private:
     const LuaValue& tools() { return *whole_.find("Tools"); }
@@ -240,7 +251,7 @@ class FusionFlow {
         static const std::string kNone;
         const LuaValue* found = tool.find("Inputs")->find(name);
         const LuaValue* value = found ? found->find(of) : nullptr;
-        if (value && value->kind == "FuID") return value->fields[0].second.text;
+        if (value && value->kind == "FuID") return value->fields[0].value.text;
         return value ? value->text : kNone;
     }
     Rgba source(const LuaValue& tool, const std::string& name) {
@@ -266,7 +277,7 @@ class FusionFlow {
     }
 
     Rgba load(const LuaValue& tool) {
-        const LuaValue& clip = tool.find("Clips")->fields[0].second;
+        const LuaValue& clip = tool.find("Clips")->fields[0].value;
         std::string path = clip.find("Filename")->text;
         EXPECT_EQ(path.rfind("Comp:/", 0), 0u) << path;
         path = run_.folder + path.substr(5);

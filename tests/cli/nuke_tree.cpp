@@ -98,6 +98,7 @@ class NukeMachine {
         if (node.kind == "Root") return;
         const auto inputs = node.knobs.count("inputs") ? std::stoi(node.knobs.at("inputs")) : 1;
         std::vector<NukeStream> in;
+        in.reserve(static_cast<std::size_t>(inputs));
         for (int k = 0; k < inputs; ++k)
             in.push_back(pop());
         using Step = NukeStream (NukeMachine::*)(const NukeNode&, std::vector<NukeStream>&) const;
@@ -146,7 +147,7 @@ class NukeMachine {
             if (from == "black")
                 channel = ImageF1(size);
             else
-                channel = in[0].at(layer + (one ? ".Y" : "." + from));
+                channel = in[0].at(std::string(layer).append(".").append(one ? "Y" : from));
         }
         return out;
     }
