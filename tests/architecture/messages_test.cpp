@@ -20,8 +20,9 @@ namespace fs = std::filesystem;
 
 // Files that write command lines, and the tables that define the flags.
 const std::vector<std::string> kAllowed{
-    "app/exchange/schemas.cpp",  // describe the output of --json
-    "app/main.cpp",              // parses the editor's command line
+    "app/composites/blender_composite.cpp",  // Blender's own
+    "app/exchange/schemas.cpp",              // describe the output of --json
+    "app/main.cpp",                          // parses the editor's command line
     "app/project/form_parameters.cpp",
     "app/project/look_parameters.cpp",
     "app/project/matte_parameters.cpp",

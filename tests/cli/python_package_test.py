@@ -135,7 +135,7 @@ class Examples(Scratch):
             shutil.copy(DEMO / "plates" / f"{frame}.jpg", plate)
         code, said = self.example("render_with_progress.py", plate / "####.jpg", MATTE, BRICK, "out/####.png")
         self.assertEqual(code, 0)
-        self.assertIn("render 1002 100%", said)
+        self.assertRegex(said, r"render 100[12] 100%")  # two frames at a time
         self.assertIn("2 frames", said)
         _, said = self.example("motion_and_measure.py", "shot.weft", "out/####.png", MATTE, "motion")
         self.assertIn("surface moves as", said)
