@@ -80,7 +80,7 @@ void keep_nearer(const GroundStep& step, const Matte& known, Matte& ripe) {
         for (int x = 0; x < inside.cols; ++x) {
             std::uint8_t& code = ripe.at(box.x0 + x, box.y0 + y);
             if (code == 0 || other_share.at<float>(y, x) < kFewest) continue;
-            const cv::Vec3f color = own.at<cv::Vec3f>(y, x);
+            const cv::Vec3f& color = own.at<cv::Vec3f>(y, x);
             if (surface_share.at<float>(y, x) < kFewest ||
                 cv::norm(color - surface.at<cv::Vec3f>(y, x)) >
                     cv::norm(color - other.at<cv::Vec3f>(y, x)))
@@ -135,6 +135,7 @@ void keep_continuing(const GroundStep& step, Matte& pieces) {
     }
     const float most = std::max(kLeast_levels, kTimes * median(own));
     std::vector<bool> has_edge;
+    has_edge.reserve(across.size());
     for (std::vector<float>& steps : across)
         has_edge.push_back(median(steps) > most);
     for (int y = 0; y < pieces.height(); ++y) {
