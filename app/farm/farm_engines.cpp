@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/core/text.h"
+
 namespace weft {
 namespace {
 
@@ -115,29 +117,12 @@ Files deadline(const FarmJob& job) {
     return out;
 }
 
-std::string xml(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
-
 // OpenCue's job specification (cjsl): one layer per stage, one frame per index.
 Files opencue(const FarmJob& job) {
     std::string layers, depends, before;
     for (const FarmStage& stage : job.stages) {
         layers += "      <layer name=\"" + stage.name +
-                  "\" type=\"Render\">\n        <cmd>weft task '" + xml(job.file) + "' " +
+                  "\" type=\"Render\">\n        <cmd>weft task '" + xml_text(job.file) + "' " +
                   stage.name + " #IFRAME#</cmd>\n        <range>0-" + last_index(stage) +
                   "</range>\n        <chunk>1</chunk>\n        <services>"
                   "<service>shell</service></services>\n      </layer>\n";

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "app/shot/frame_plan.h"
-#include "engine/core/frame_range.h"
 #include "engine/core/setting.h"
 #include "engine/pipeline/partial_plan.h"
 
@@ -43,17 +42,6 @@ std::vector<int> spread_frames(const std::vector<int>& frames) {
     return out;
 }
 
-Expected<std::vector<int>> gathered_frames(const FlattenSpec& spec, const std::vector<int>& shot) {
-    if (spec.frames.empty()) return spread_frames(shot);
-    WEFT_TRY(wanted, parse_frame_list(spec.frames));
-    std::vector<int> lacks;
-    std::set_difference(wanted.begin(), wanted.end(), shot.begin(), shot.end(),
-                        std::back_inserter(lacks));
-    if (lacks.empty()) return wanted;
-    return fail(ErrorCode::kMissingFrames, "The shot has no " + frames_text(lacks) + ".",
-                "Choose among its " + frames_text(shot) + by({{setting::kFrames}}) + ".");
-}
-
 // The plate's light in full and relative to the reference frame, and nothing else of the look.
 void keep_light_only(RegionPlan& region) {
     region.light.form = LightForm::kGain;
@@ -66,12 +54,7 @@ void keep_light_only(RegionPlan& region) {
     region.exact_light = false;
     std::erase_if(region.zones, [](const ZonePlan& zone) { return !changes_motion(zone.kind); });
     region.gloss_evidence.clear();
-    region.grain = 0;
-    region.grain_frames.clear();
-    region.focus = 0;
-    region.focus_frames.clear();
-    region.shutter_deg = 0;
-    region.shutter_evidence.clear();
+    leave_camera_out(region);
 }
 
 }  // namespace
@@ -113,8 +96,8 @@ Expected<FlatPlan> plan_flat(const FlattenSpec& spec, const Shot& shot) {
                         "' is followed in the locked temporal mode only.",
                     "Set the mode" + by({{setting::kTemporalMode, "locked"}}) + ".");
     out.has_texture = region.texture != nullptr;
-    WEFT_TRY(frames, gathered_frames(spec, shot.plan.frames));
-    out.frames = std::move(frames);
+    WEFT_TRY(frames, frames_of_shot(spec.frames, shot.plan.frames));
+    out.frames = spec.frames.empty() ? spread_frames(frames) : std::move(frames);
     std::set<int> followed(out.frames.begin(), out.frames.end());
     followed.insert(region.reference_frames.front());
     followed.insert(region.light_reference());

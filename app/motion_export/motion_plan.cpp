@@ -4,7 +4,6 @@
 #include <set>
 
 #include "app/shot/frame_plan.h"
-#include "engine/core/frame_range.h"
 #include "engine/core/setting.h"
 #include "engine/pipeline/partial_plan.h"
 
@@ -51,17 +50,6 @@ Expected<std::vector<MotionRegion>> chosen_regions(const MotionJobSpec& spec, co
         out.push_back({static_cast<int>(k), region.name, plan.reference_frames.front()});
     }
     return out;
-}
-
-Expected<std::vector<int>> chosen_frames(const MotionJobSpec& spec, const std::vector<int>& shot) {
-    if (spec.frames.empty()) return shot;
-    WEFT_TRY(wanted, parse_frame_list(spec.frames));
-    std::vector<int> lacks;
-    std::set_difference(wanted.begin(), wanted.end(), shot.begin(), shot.end(),
-                        std::back_inserter(lacks));
-    if (lacks.empty()) return wanted;
-    return fail(ErrorCode::kMissingFrames, "The shot has no " + frames_text(lacks) + ".",
-                "Choose among its " + frames_text(shot) + by({{setting::kFrames}}) + ".");
 }
 
 Status set_references(int reference, const std::vector<int>& shot,
@@ -124,7 +112,7 @@ Expected<MotionPlan> plan_motion(const MotionJobSpec& spec, const Shot& shot) {
     WEFT_TRY(regions, chosen_regions(spec, shot));
     out.regions = std::move(regions);
     out.shot_frames = shot.plan.frames;
-    WEFT_TRY(frames, chosen_frames(spec, out.shot_frames));
+    WEFT_TRY(frames, frames_of_shot(spec.frames, out.shot_frames));
     out.frames = std::move(frames);
     if (spec.reference)
         WEFT_CHECK_OK(set_references(*spec.reference, out.shot_frames, out.regions));

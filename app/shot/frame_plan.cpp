@@ -307,6 +307,15 @@ std::string frames_text(const std::vector<int>& frames) {
     return (frames.size() == 1 ? "frame " : "frames ") + frames_list(frames);
 }
 
+Expected<std::vector<int>> frames_of_shot(const std::string& list, const std::vector<int>& shot) {
+    if (list.empty()) return shot;
+    WEFT_TRY(wanted, parse_frame_list(list));
+    const std::vector<int> lacks = missing_in(wanted, shot);
+    if (lacks.empty()) return wanted;
+    return fail(ErrorCode::kMissingFrames, "The shot has no " + frames_text(lacks) + ".",
+                "Choose among its " + frames_text(shot) + by({{setting::kFrames}}) + ".");
+}
+
 Expected<std::vector<int>> frames_to_render(const Project& project, const FrameReader& plate) {
     std::vector<int> frames = plate.frames();
     if (!project.settings.frames.empty()) {

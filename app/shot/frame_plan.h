@@ -88,4 +88,9 @@ inline constexpr int kEvidenceReach = 48;
 /// "frames 4-9 and 12"; long lists are shortened.
 [[nodiscard]] std::string frames_text(const std::vector<int>& frames);
 
+/// The frames of a list such as "1-40,52", or all of `shot` (ascending) if it is empty. Errors:
+/// Usage for an invalid list; MissingFrames for frames that the shot does not have.
+[[nodiscard]] Expected<std::vector<int>> frames_of_shot(const std::string& list,
+                                                        const std::vector<int>& shot);
+
 }  // namespace weft

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "engine/core/median.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
-#include "engine/lighting/median.h"
 #include "engine/lighting/pattern_period.h"
 
 namespace weft {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/fast_math.h"
-#include "engine/lighting/median.h"
 
 namespace weft {
 namespace {

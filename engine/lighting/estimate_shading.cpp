@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
 #include "engine/lighting/bilateral_grid.h"
@@ -10,7 +11,6 @@
 #include "engine/lighting/light_doubt.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/masked_statistics.h"
-#include "engine/lighting/median.h"
 #include "engine/lighting/quadratic_fit.h"
 #include "engine/lighting/reflectance.h"
 #include "engine/lighting/shading.h"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/masked_filters.h"
-#include "engine/lighting/median.h"
 
 namespace weft {
 namespace {

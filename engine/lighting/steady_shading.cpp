@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/fast_math.h"
 #include "engine/lighting/masked_filters.h"
-#include "engine/lighting/median.h"
 #include "engine/lighting/shading.h"
 
 namespace weft {

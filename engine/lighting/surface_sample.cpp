@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "engine/core/luma.h"
+#include "engine/core/median.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/coverage.h"
 #include "engine/lighting/fast_math.h"
-#include "engine/lighting/median.h"
 
 namespace weft {
 namespace {

@@ -6,20 +6,18 @@
 #include "engine/core/parallel.h"
 #include "engine/mask/confirmed_part.h"
 #include "engine/mask/nearest_pixel.h"
-#include "engine/mask/uncovered.h"
 
 namespace weft {
 
 void Followed::advance(const FollowedStep& step) {
     const Recti frame = rect_of(known_.size());
-    const Matte parting = parting_pixels(step.flow, frame);
     Matte moved(known_.size());
     parallel_rows(moved.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < moved.width(); ++x) {
                 const bool inside = step.phi.row(y)[x] > 0;
                 // What was found again elsewhere has no motion of the surface's.
-                if (inside ? !step.area.contains(x, y) : parting.at(x, y) != 0) continue;
+                if (inside ? !step.area.contains(x, y) : step.parting.at(x, y) != 0) continue;
                 const float* d = inside
                                      ? step.surface_motion.pixel(x - step.area.x0, y - step.area.y0)
                                      : step.flow.d.pixel(x, y);

@@ -11,6 +11,7 @@ namespace weft {
 /// A step of the walk. Views have the frame's size but `surface_motion`, which has that of `area`.
 struct FollowedStep {
     const FlowField& flow;  ///< prev_from_cur as measured, `valid` where it leads there and back.
+    const Matte& parting;   ///< parting_pixels() of it and the whole frame.
     ViewF2 surface_motion;  ///< prev_from_cur of the surface, px.
     Recti area;             ///< Where the surface may be; empty once it has left the frame.
     ViewF1 prev_phi, phi;   ///< Signed distance of the matte on the frame before and on this one.

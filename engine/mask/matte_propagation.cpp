@@ -20,6 +20,14 @@ namespace {
 
 constexpr float kWidestEdgeBands = 2;  // hair reaches 20 px at 854×480
 
+// Confidence falls with each frame whose boundary had to be guessed. It ranks frames by quality and
+// is not calibrated to be the overlap itself.
+float confidence_kept(const BoundaryEvidence& e, float consistency) {
+    const float risk = (1 - e.separability) + (1 - e.certainty) + 0.5f * (1 - e.steadiness) +
+                       0.5f * (1 - consistency);
+    return std::exp(-0.1f * risk);
+}
+
 }  // namespace
 
 MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& options,
@@ -148,13 +156,9 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
         const ImageF2 key_from_cur = follow_places(s.key_from_prev, shape.prev_from_cur, area);
         const RefinedBoundary found =
             s.find_boundary(part, shape, key_from_cur, prev_from_cur, area, covered);
-        // Confidence falls with each frame whose boundary had to be guessed. It ranks frames by
-        // quality and is not calibrated to be the overlap itself.
-        const BoundaryEvidence& e = found.evidence;
-        const float risk = (1 - e.separability) + (1 - e.certainty) + 0.5f * (1 - e.steadiness) +
-                           0.5f * (1 - shape.consistency);
-        s.confidence *= std::exp(-0.1f * risk);
-        s.since_confidence *= std::exp(-0.1f * risk);
+        const float kept = confidence_kept(found.evidence, shape.consistency);
+        s.confidence *= kept;
+        s.since_confidence *= kept;
         s.confirmed.move(shape.prev_from_cur, area);
         paste(matte, s.soften(part, found, key_from_cur, shape.prev_from_cur, area), area);
         paste(phi, found.phi, area);
@@ -167,9 +171,10 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     s.take_back(frame, prev_from_cur, phi, matte);
     s.take_whole_fills(frame, phi, matte);
     s.take_as_scene(frame, prev_from_cur, covered, phi, matte);
-    s.take_ground({frame, measured, surface_motion, area, s.phi, phi, s.scale.unit_px()}, phi,
-                  matte);
-    if (s.followed) s.followed->advance({measured, surface_motion, area, s.phi, phi});
+    const Matte parting = parting_pixels(measured, rect_of(frame.size()));
+    s.take_ground({frame, measured, parting, surface_motion, area, s.phi, phi, s.scale.unit_px()},
+                  phi, matte);
+    if (s.followed) s.followed->advance({measured, parting, surface_motion, area, s.phi, phi});
     s.phi = std::move(phi);
     s.seen = covered.empty() ? ImageF1() : seen_distance(s.phi, covered);
     s.plate.update(frame, s.seen_phi());

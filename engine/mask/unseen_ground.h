@@ -14,6 +14,7 @@ namespace weft {
 struct GroundStep {
     ViewU8x3 frame;         ///< Display codes.
     const FlowField& flow;  ///< prev_from_cur as measured.
+    const Matte& parting;   ///< parting_pixels() of it and the whole frame.
     ViewF2 surface_motion;  ///< prev_from_cur of the surface, px.
     Recti area;             ///< Where the surface may be; empty once it has left the frame.
     ViewF1 prev_phi, phi;   ///< Signed distance of the matte on the frame before and on this one.
@@ -24,7 +25,8 @@ struct GroundStep {
 /// What was not (it came out from behind something, or was inside once) and for some frames has
 /// the surface's colours, goes with its motion, and is joined to it by more of its outline than to
 /// what is known to be outside, is the surface: a sheet where somebody has jumped on it, a shirt
-/// behind a kettle. Not thread-safe.
+/// behind a kettle. A frame on which most of what was seen outside is lost tells nothing. Not
+/// thread-safe.
 class UnseenGround {
   public:
     /// `key_phi`: signed distance of the keyframe's matte, px; 0 where it is not seen.

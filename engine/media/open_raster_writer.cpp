@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "engine/core/text.h"
 #include "engine/media/atomic_file.h"
 #include "engine/media/open_raster.h"
 #include "engine/media/open_raster_reader.h"
@@ -85,21 +86,6 @@ Picture thumbnail_of(const Picture& picture) {
             std::copy_n(picture.rgb.pixel(u, v), 3, out.rgb.pixel(x, y));
             out.alpha.at(x, y) = picture.alpha.at(u, v);
         }
-    }
-    return out;
-}
-
-std::string xml_text(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '"')
-            out += "&quot;";
-        else if (static_cast<unsigned char>(c) >= 32)
-            out += c;
     }
     return out;
 }

@@ -82,7 +82,10 @@ int common_colour(const std::vector<Shown>& shown, std::vector<std::pair<float, 
     return agree;
 }
 
-void join_views(const std::vector<FlatView>& views, int first_row, FlatSurface& out) {
+// For every place that a view shows: `take` gets its x and y in the views, what they show, and
+// scratch. Parallel over rows.
+template <typename Take>
+void over_shown(const std::vector<FlatView>& views, const Take& take) {
     const Size size = views.front().weight.size();
     parallel_rows(size.height, 4, [&](int y0, int y1) {
         std::vector<Shown> shown;
@@ -95,13 +98,18 @@ void join_views(const std::vector<FlatView>& views, int first_row, FlatSurface& 
                     if (view.weight.at(x, y) > 0)
                         shown.push_back({{p[0], p[1], p[2]}, view.weight.at(x, y)});
                 }
-                if (shown.empty()) continue;
-                const int agree = common_colour(shown, order, out.colour.pixel(x, y + first_row));
-                out.coverage.at(x, y + first_row) = 255;
-                out.frames.at(x, y + first_row) =
-                    static_cast<std::uint8_t>(std::min(255, std::max(1, agree)));
+                if (!shown.empty()) take(x, y, shown, order);
             }
         }
+    });
+}
+
+void join_views(const std::vector<FlatView>& views, int first_row, FlatSurface& out) {
+    over_shown(views, [&](int x, int y, const auto& shown, auto& order) {
+        const int agree = common_colour(shown, order, out.colour.pixel(x, y + first_row));
+        out.coverage.at(x, y + first_row) = 255;
+        out.frames.at(x, y + first_row) =
+            static_cast<std::uint8_t>(std::min(255, std::max(1, agree)));
     });
 }
 
@@ -193,41 +201,25 @@ Status over_bands(Gathering& g, const PlanePyramid* plane, const Take& take) {
 
 // Puts the frames' common difference on the picture. Where they do not agree it is what moves.
 void add_difference(const std::vector<FlatView>& views, int first_row, FlatSurface& out) {
-    const Size size = views.front().weight.size();
-    parallel_rows(size.height, 4, [&](int y0, int y1) {
-        std::vector<Shown> shown;
-        std::vector<std::pair<float, float>> order;
-        for (int y = y0; y < y1; ++y) {
-            for (int x = 0; x < size.width; ++x) {
-                shown.clear();
-                for (const FlatView& view : views) {
-                    const float* p = view.colour.pixel(x, y);
-                    if (view.weight.at(x, y) > 0)
-                        shown.push_back({{p[0], p[1], p[2]}, view.weight.at(x, y)});
-                }
-                if (shown.empty()) continue;
-                float* rgb = out.colour.pixel(x, y + first_row);
-                const float slope = 2 * coded(std::max({rgb[0], rgb[1], rgb[2], kDark}));
-                const auto away = [&](const Shown& s) {
-                    return std::max({std::abs(s.colour[0]), std::abs(s.colour[1]),
-                                     std::abs(s.colour[2])}) /
-                           slope;
-                };
-                const float reach =
-                    std::max(kAlikeBeyond, kAlikeSpread * middle(shown, order, away));
-                std::array<double, 3> sum{};
-                double weight = 0;
-                for (const Shown& s : shown) {
-                    const float share = std::min(1.0f, away(s) / reach);
-                    const float keep = (1 - share * share) * (1 - share * share);
-                    for (std::size_t c = 0; c < 3; ++c)
-                        sum[c] += static_cast<double>(s.weight * keep) * s.colour[c];
-                    weight += static_cast<double>(s.weight * keep);
-                }
-                for (std::size_t c = 0; weight > 0 && c < 3; ++c)
-                    rgb[c] = std::max(0.0f, rgb[c] + static_cast<float>(sum[c] / weight));
-            }
+    over_shown(views, [&](int x, int y, const auto& shown, auto& order) {
+        float* rgb = out.colour.pixel(x, y + first_row);
+        const float slope = 2 * coded(std::max({rgb[0], rgb[1], rgb[2], kDark}));
+        const auto away = [&](const Shown& s) {
+            return std::max({std::abs(s.colour[0]), std::abs(s.colour[1]), std::abs(s.colour[2])}) /
+                   slope;
+        };
+        const float reach = std::max(kAlikeBeyond, kAlikeSpread * middle(shown, order, away));
+        std::array<double, 3> sum{};
+        double weight = 0;
+        for (const Shown& s : shown) {
+            const float share = std::min(1.0f, away(s) / reach);
+            const float keep = (1 - share * share) * (1 - share * share);  // Tukey's biweight
+            for (std::size_t c = 0; c < 3; ++c)
+                sum[c] += static_cast<double>(s.weight * keep) * s.colour[c];
+            weight += static_cast<double>(s.weight * keep);
         }
+        for (std::size_t c = 0; weight > 0 && c < 3; ++c)
+            rgb[c] = std::max(0.0f, rgb[c] + static_cast<float>(sum[c] / weight));
     });
 }
 

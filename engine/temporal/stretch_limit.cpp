@@ -5,6 +5,7 @@
 #include <complex>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/core/smooth_step.h"
 
 namespace weft {
@@ -38,15 +39,21 @@ LocalShape shape_at(const LatticeField& field, int i, int j) {
     return {a + b, a - b, 0.5f * (turn - mirror), 0.5f * (turn + mirror)};
 }
 
+// Also where the field is flat or folds over.
+float width_of(const LocalShape& shape) {
+    return std::max(shape.smallest, 1e-4f * shape.largest);
+}
 float scale_of(const LocalShape& shape) {
-    return std::sqrt(shape.largest * std::max(shape.smallest, 1e-4f * shape.largest));
+    return std::sqrt(shape.largest * width_of(shape));
+}
+float drawn_out(const LocalShape& shape) {
+    return shape.largest / width_of(shape);
 }
 
 // In units of the limits: above 1 it is past one of them.
 float stretch_of(const LocalShape& shape, float whole) {
     const float scale = scale_of(shape) / whole;
-    const float drawn_out = shape.largest / std::max(shape.smallest, 1e-4f * shape.largest);
-    return std::max(drawn_out / kMostDrawnOut, std::max(scale, 1 / scale) / kMostScaled);
+    return std::max(drawn_out(shape) / kMostDrawnOut, std::max(scale, 1 / scale) / kMostScaled);
 }
 
 bool inside(const LatticeField& field, ViewU8x1 visible, int i, int j) {
@@ -68,10 +75,7 @@ float whole_scale(const LatticeField& field, ViewU8x1 visible, ScaleRange range)
                 scales.push_back(std::max(shape.smallest, std::min(1.0f, shape.largest)));
         }
     }
-    if (scales.empty()) return 1;
-    const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
-    std::nth_element(scales.begin(), middle, scales.end());
-    return std::clamp(*middle, range.least, range.most);
+    return std::clamp(median_of(scales, 1.0f), range.least, range.most);
 }
 
 // q ≈ a p + b over complex numbers: rotation, scale and translation by least squares.
@@ -83,8 +87,7 @@ struct Similarity {
     }
 };
 
-// Its scale is 2/3 to 3/2 of `whole`.
-Similarity fit(const LatticeField& field, const ImageF1& weight, double whole) {
+Similarity fit(const LatticeField& field, const ImageF1& weight, ScaleRange range) {
     double n = 0, norm = 0;
     std::complex<double> p_sum, q_sum, cross;
     for (int j = 0; j < weight.height(); ++j) {
@@ -105,8 +108,8 @@ Similarity fit(const LatticeField& field, const ImageF1& weight, double whole) {
     const double spread = norm - std::norm(p_sum) / n;
     if (spread > 1e-6) out.a = (cross - std::conj(p_sum) * q_sum / n) / spread;
     const double scale = std::abs(out.a);
-    out.a = scale > 1e-6 ? out.a * (std::clamp(scale, whole / 1.2, whole * 1.2) / scale)
-                         : std::complex<double>(whole, 0);
+    const double held = std::clamp<double>(scale, range.least, range.most);
+    out.a = scale > 1e-6 ? out.a * (held / scale) : std::complex<double>(held, 0);
     out.b = (q_sum - out.a * p_sum) / n;
     return out;
 }
@@ -132,7 +135,7 @@ ImageF1 spread(const ImageF1& marks, int reach) {
     return out;
 }
 
-// The field's slopes at an inner node with both singular values brought within the limits.
+// The field's slopes at an inner node, well within the limits where they are past one.
 struct Slopes {
     Vec2 along_x, along_y;
 };
@@ -141,9 +144,8 @@ Slopes limited_slopes(const LocalShape& shape, float whole) {
     float scale = scale_of(shape) / whole;
     if (std::max(scale, 1 / scale) > kMostScaled)
         scale = scale > 1 ? kScaledAfter : 1 / kScaledAfter;
-    float drawn_out = shape.largest / std::max(shape.smallest, 1e-4f * shape.largest);
-    if (drawn_out > kMostDrawnOut) drawn_out = kDrawnOutAfter;
-    const float half = std::sqrt(drawn_out);
+    const float is = drawn_out(shape);
+    const float half = std::sqrt(is > kMostDrawnOut ? kDrawnOutAfter : is);
     const float large = whole * scale * half, small = whole * scale / half;
     const Vec2 before(std::cos(shape.before), std::sin(shape.before));
     const Vec2 after(std::cos(shape.after), std::sin(shape.after));
@@ -222,7 +224,7 @@ std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 
         }
     }
     if (seen == 0 || static_cast<float>(past) < kMuch * static_cast<float>(seen)) return {};
-    const Similarity target = fit(field, weight, whole);
+    const Similarity target = fit(field, weight, {whole / kScaledAfter, whole * kScaledAfter});
     for (int reach = 4; reach <= 64; reach *= 2) {
         const ImageF1 pull = reach < 64 ? spread(excess, reach) : ImageF1(size, 1.0f);
         LatticeField out = field;
@@ -251,7 +253,7 @@ LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible) {
         for (int i = 0; i < weight.width(); ++i)
             weight.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
     }
-    const Similarity target = fit(field, weight, 1);
+    const Similarity target = fit(field, weight, {2.0f / 3, 1.5f});
     LatticeField out(field.full_size(), field.spacing());
     for (int j = 0; j < weight.height(); ++j) {
         for (int i = 0; i < weight.width(); ++i) {

@@ -29,8 +29,8 @@ inline constexpr int kReanchorFrames = 16;
 [[nodiscard]] std::optional<LatticeField> relaxed_stretch(const LatticeField& ref_from_cur,
                                                           ViewU8x1 visible, ScaleRange range = {});
 
-/// The similarity (rotation, scale, translation) that fits a field best over `visible`, defined
-/// everywhere. Pure.
+/// The similarity (rotation, scale of 2/3 to 3/2, translation) that fits a field best over
+/// `visible`, defined everywhere. Pure.
 [[nodiscard]] LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible);
 
 }  // namespace weft

@@ -46,8 +46,8 @@ bool SurfaceWalker::State::reanchor(ViewU8x1 visible) {
     return true;
 }
 
-// The surface as a whole may be as much larger or smaller as what is seen of it is, and half as
-// much again: how much of it is hidden is not known, nor how large a part was.
+// The surface as a whole may be as much larger or smaller as what is seen of it is, and a tenth
+// more. How large a part was is not known.
 ScaleRange SurfaceWalker::State::scale_range(ViewU8x1 visible) const {
     if (first_px == 0) return {1.0f / 3, 3.0f};
     const auto seen = static_cast<float>(std::max<std::int64_t>(1, visible_pixels(visible)));

@@ -5,6 +5,7 @@
 
 #include "engine/mask/matte_propagation.h"
 #include "engine/mask/signed_distance.h"
+#include "engine/mask/uncovered.h"
 #include "tests/mask/moving_disc.h"
 
 namespace weft {
@@ -40,8 +41,9 @@ TEST(Followed, WhatASurfaceUncoversIsGuessed) {
     Followed followed(scene.size);
     const ImageF1 before = disc_distance(scene, 0), now = disc_distance(scene, 1);
     const FlowField flow = scene.prev_from_cur(1);
+    const Matte parting = parting_pixels(flow, rect_of(scene.size));
     const ImageF2 surface = steady_motion(scene.size, -scene.step);
-    followed.advance({flow, surface, rect_of(scene.size), before, now});
+    followed.advance({flow, parting, surface, rect_of(scene.size), before, now});
     const auto y = static_cast<int>(scene.start.y);
     const auto left = static_cast<int>(scene.start.x - scene.radius_px);
     EXPECT_EQ(followed.known().at(left + 3, y), 0) << "uncovered";
@@ -55,9 +57,10 @@ TEST(Followed, WhatBecomesSurfaceIsGuessedAlsoWhereItWasSeen) {
     larger.radius_px += 8;
     Followed followed(scene.size);
     const FlowField flow = scene.prev_from_cur(1);
+    const Matte parting = parting_pixels(flow, rect_of(scene.size));
     const ImageF2 surface = steady_motion(scene.size, -scene.step);
-    followed.advance(
-        {flow, surface, rect_of(scene.size), disc_distance(scene, 0), disc_distance(larger, 1)});
+    followed.advance({flow, parting, surface, rect_of(scene.size), disc_distance(scene, 0),
+                      disc_distance(larger, 1)});
     const Vec2 center = scene.center(1);
     const auto x = static_cast<int>(center.x + scene.radius_px + 4);
     EXPECT_EQ(followed.known().at(x, static_cast<int>(center.y)), 0);
@@ -70,10 +73,12 @@ TEST(Followed, WhatIsFoundAgainElsewhereIsGuessed) {
     const DiscScene scene;
     Followed followed(scene.size);
     const FlowField flow = scene.prev_from_cur(1);
+    const Matte parting = parting_pixels(flow, rect_of(scene.size));
     // The surface was expected in the left quarter, and is found beside it.
     const Recti expected{0, 0, scene.size.width / 4, scene.size.height};
     const ImageF2 surface = steady_motion(expected.size(), -scene.step);
-    followed.advance({flow, surface, expected, disc_distance(scene, 0), disc_distance(scene, 1)});
+    followed.advance(
+        {flow, parting, surface, expected, disc_distance(scene, 0), disc_distance(scene, 1)});
     const Vec2 center = scene.center(1);
     EXPECT_EQ(followed.known().at(static_cast<int>(center.x), static_cast<int>(center.y)), 0);
 }

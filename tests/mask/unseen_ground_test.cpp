@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "engine/mask/signed_distance.h"
+#include "engine/mask/uncovered.h"
 #include "tests/mask/moving_disc.h"
 
 namespace weft {
@@ -64,9 +65,10 @@ struct Passing {
         for (int t = 1; t <= kSteps; ++t) {
             const ImageU8x3 now = frame(t, darker);
             const FlowField flow = scene.prev_from_cur(t);
+            const Matte parting = parting_pixels(flow, rect_of(scene.size));
             const ImageF1 before = found(t - 1), phi = found(t);
-            const Matte more =
-                ground.advance({now, flow, still, rect_of(scene.size), before, phi, 1.0f}, palette);
+            const Matte more = ground.advance(
+                {now, flow, parting, still, rect_of(scene.size), before, phi, 1.0f}, palette);
             if (more.empty()) continue;
             for (int y = 0; y < any.height(); ++y)
                 for (int x = 0; x < any.width(); ++x)
@@ -96,6 +98,38 @@ TEST(UnseenGround, WhatHasAnotherColourStaysOutside) {
 // A white table behind a white shirt: coloured nearly as the surface, but there is an edge.
 TEST(UnseenGround, WhatLiesBeyondAnEdgeStaysOutside) {
     EXPECT_EQ(Passing().added(18), 0);
+}
+
+// Something of the surface's colours was seen outside on the keyframe. A black frame, on which
+// every place seems to come from one, does not make it unknown.
+TEST(UnseenGround, ABlackFrameTellsNothing) {
+    const Passing passing;
+    const Size size = passing.scene.size;
+    test::DiscScene gone = passing.scene;
+    gone.start = {-100, -100};
+    gone.step = {0, 0};
+    const ImageU8x3 now = gone.frame(0);
+    const SurfacePalette palette(passing.scene.frame(0), passing.key);
+    UnseenGround ground(passing.key);
+    const ImageF2 still(size);
+    FlowField lost(size), rests(size);
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            lost.d.at(x, y, 0) = static_cast<float>(10 - x);
+            lost.d.at(x, y, 1) = static_cast<float>(10 - y);
+            lost.valid.at(x, y) = 0;
+        }
+    }
+    for (int t = 0; t < kSteps; ++t) {
+        const FlowField& flow = t == 0 ? lost : rests;
+        const Matte parting = parting_pixels(flow, rect_of(size));
+        EXPECT_TRUE(
+            ground
+                .advance({now, flow, parting, still, rect_of(size), passing.key, passing.key, 1.0f},
+                         palette)
+                .empty())
+            << t;
+    }
 }
 
 }  // namespace
