@@ -46,14 +46,14 @@ RecommendRequest request_for(const Frame& frame) {
     return request;
 }
 
-TEST(Recommend, SeesTheMaterialAndGivesReasons) {
+TEST(Recommend, SeesTheRoleAndGivesReasons) {
     const Frame frame;
     RecommendRequest request = request_for(frame);
     request.diversity = 0;
     const auto advice = small_library()->recommend(request);
     ASSERT_TRUE(advice) << advice.error().text();
     const RegionSuggestions& wall = advice->regions[0];
-    EXPECT_THAT(wall.seen_as, testing::HasSubstr("brick"));
+    EXPECT_THAT(wall.seen_as, testing::HasSubstr("a wall"));
     ASSERT_EQ(wall.suggestions.size(), 8u);
     EXPECT_GE(wall.schemes.size(), 4u);
     int bricks = 0;
@@ -66,7 +66,22 @@ TEST(Recommend, SeesTheMaterialAndGivesReasons) {
             EXPECT_LE(part, 1);
         }
     }
-    EXPECT_GE(bricks, 4) << "'keep the material' keeps it";
+    EXPECT_GE(bricks, 4) << "'like now' finds it";
+}
+
+// A green surface without a name: the first suggestions are plants, though its place is as much a
+// wall's.
+TEST(Recommend, TakesWhatIsGreenForPlants) {
+    const Frame frame;
+    RecommendRequest request = request_for(frame);
+    request.regions = {{"1", frame.right.view(), "", ""}};
+    const auto advice = small_library()->recommend(request);
+    const std::vector<Suggestion>& green = advice->regions[0].suggestions;
+    EXPECT_THAT(green[0].material, testing::AnyOf("grass", "foliage"));
+    request.regions = {{"1", frame.left.view(), "", ""}};
+    const auto other = small_library()->recommend(request);
+    EXPECT_THAT(other->regions[0].suggestions[0].material,
+                testing::Not(testing::AnyOf("grass", "foliage")));
 }
 
 TEST(Recommend, OffersWhatServesAsTheRegion) {
@@ -132,7 +147,7 @@ TEST(Recommend, VarietyIsPaidForWithScoreByTheMeasureThatIsAsked) {
     EXPECT_GT(none.score, little.score);
     EXPECT_GT(little.score, much.score);
     EXPECT_GT(much.materials.size(), none.materials.size());
-    EXPECT_GT(much.materials.size(), little.materials.size());
+    EXPECT_GE(much.materials.size(), little.materials.size());
 }
 
 TEST(Recommend, WishesAreMet) {

@@ -128,13 +128,6 @@ TEST(Speed, OfTwoHundredThousandDescriptors) {
     RecommendRequest request;
     request.plate = plate;
     const RegionRequest region{"r", matte.view(), "", ""};
-    DescriptorModel model;
-    model.outputs = index.descriptor_size;
-    for (int m = 0; m < index.materials.size(); ++m) {
-        model.materials.push_back(index.materials.text(m));
-        const auto middle = index.descriptor(static_cast<std::size_t>(m));
-        model.centres.insert(model.centres.end(), middle.begin(), middle.end());
-    }
     RegionSuggestions suggested;
     std::printf("recommend out of 200,000: %.1f ms\n",
                 1e3 * seconds([&] {
@@ -147,7 +140,7 @@ TEST(Speed, OfTwoHundredThousandDescriptors) {
                             texture_features(middle_sample(plate.view().crop({0, 0, 96, 96}))));
                         look->descriptors.emplace_back(d.begin(), d.end());
                     }
-                    const RegionScorer scorer(index, &model, request, region, *look);
+                    const RegionScorer scorer(index, request, region, *look);
                     suggested = suggest_for(index, request, region, *look, scorer);
                 }));
     EXPECT_EQ(suggested.suggestions.size(), 12u);

@@ -16,25 +16,34 @@ struct RoleVocabulary {
 constexpr RoleVocabulary kVocabulary[]{
     {SurfaceRole::kWall,
      "wall facade building house column pillar ceiling tower fence chimney arch castle bridge "
-     "backdrop room interior cliff structure"},
+     "backdrop room interior cliff structure graffiti fireplace gate hall shed barn ruin"},
     {SurfaceRole::kGround,
      "ground floor road street path pavement field terrain yard courtyard land court deck stage "
-     "beach lawn meadow"},
+     "beach lawn meadow track trail lane pitch arena garden verge bank slope hill hillside "
+     "mountain "
+     "soil mud earth sidewalk driveway runway pasture desert dune shore platform"},
     {SurfaceRole::kRoof, "roof rooftop canopy awning"},
     {SurfaceRole::kGarment,
-     "garment clothing cloth fabric dress skirt shirt sleeve cape coat jacket trouser pant hat "
-     "scarf glove robe tunic cloak costume sweater jumper blouse suit vest hood sock shoe boot "
-     "apron uniform curtain drape flag sail cushion pillow blanket towel rug carpet sofa footwear "
-     "headdress textile tee tshirt jean legging stocking gown veil shawl turban kimono sari tie "
-     "ribbon cuff collar bedspread bedcover bedding bedclothes bed duvet quilt comforter mattress "
-     "pillowcase couch armchair upholstery tablecloth napkin banner tent backpack"},
+     "garment clothing clothes cloth fabric dress skirt shirt sleeve cape coat jacket trouser pant "
+     "hat scarf glove robe tunic cloak costume sweater jumper blouse suit vest hood hoodie sock "
+     "shoe boot apron uniform curtain drape flag sail cushion pillow blanket towel rug carpet sofa "
+     "footwear headdress textile tee tshirt jean legging stocking gown veil shawl turban kimono "
+     "sari tie ribbon cuff collar bedspread bedcover bedding bedclothes bed duvet quilt comforter "
+     "mattress pillowcase couch armchair upholstery tablecloth napkin banner tent backpack short "
+     "pyjama pajama cardigan pullover bag handbag cap beanie belt hammock parachute man woman boy "
+     "girl child person people player dancer rider cyclist runner skater actor actress worker"},
     {SurfaceRole::kCoat,
      "fur coat skin body animal creature monster dog cat fox bear horse bird swan dragon lizard "
-     "snake fish tail paw wing feather mane head leg character hair beast"},
+     "snake fish tail paw wing feather mane head leg character hair beast cow bull calf goat sheep "
+     "lamb pig donkey camel elephant lion tiger wolf rabbit mouse monkey deer duck goose hen "
+     "chicken dinosaur arm hand face"},
     {SurfaceRole::kProp,
      "prop ball box crate barrel table chair vase statue car vehicle robot door sword "
-     "shield armour armor rock boulder slab stump trunk furniture container weapon instrument"},
-    {SurfaceRole::kElement, "water sea lake river sky cloud lava fire ice ocean smoke"},
+     "shield armour armor rock boulder slab stump trunk furniture container weapon instrument "
+     "truck lorry bus van bike bicycle motorbike boat ship train plane cup mug pot kettle bottle "
+     "jug plate bowl lamp cabinet cupboard drawer shelf desk bench counter worktop can tin phone "
+     "toy block cube log branch"},
+    {SurfaceRole::kElement, "water sea lake river sky cloud lava fire ice ocean smoke pond pool"},
 };
 
 bool holds(std::string_view words, const std::string& word) {

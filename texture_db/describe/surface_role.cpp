@@ -160,19 +160,23 @@ RoleWeights roles_of_place(const RegionPlace& place) {
     const float reaches_out =
         std::min((place.top + place.left + place.right + place.bottom) / 0.6f, 1.0f);
     const float large = std::min(place.area / 0.15f, 1.0f);
-    // A region along the bottom that begins below the upper third is likely ground; one that does
-    // not come near the bottom is not.
-    at(SurfaceRole::kGround) =
-        along_bottom > 0 && place.first_row > 0.3f ? 0.7f + 3 * along_bottom : 0.6f;
+    // A region along the bottom that begins below the upper third is likely ground, and so is one
+    // lower down that reaches a side.
+    const float sides = std::min((place.left + place.right) / 0.3f, 1.0f);
+    const float low = std::clamp((place.first_row - 0.3f) / 0.25f, 0.0f, 1.0f);
+    at(SurfaceRole::kGround) = 0.6f + 1.5f * low * sides * (1 - along_bottom);
+    if (along_bottom > 0 && place.first_row > 0.3f)
+        at(SurfaceRole::kGround) += 0.1f + 3 * along_bottom;
     at(SurfaceRole::kWall) = 0.6f + 1.2f * large + (place.first_row < 0.3f ? reaches_out : 0);
-    at(SurfaceRole::kRoof) = place.first_row < 0.4f ? 1.0f : 0.4f;
-    at(SurfaceRole::kElement) = 0.3f + 0.7f * large;
+    at(SurfaceRole::kRoof) = place.first_row < 0.4f ? 0.5f : 0.2f;
+    at(SurfaceRole::kElement) = 0.1f + 0.2f * large;
     const float free_standing = (1 - reaches_out) * (1 - 0.5f * large);
-    // Limbs and folds have a broken outline, buildings a plain one.
+    // Limbs and folds have a broken outline, buildings a plain one. Whoever replaces a texture does
+    // so on clothes more often than on things.
     const float broken = std::clamp((0.95f - place.solidity) / 0.25f, 0.0f, 1.0f);
     at(SurfaceRole::kWall) *= 1 - 0.7f * free_standing * broken;
-    at(SurfaceRole::kProp) = 0.5f + 1.5f * free_standing * (1 - 0.6f * broken);
-    at(SurfaceRole::kGarment) = 0.4f + (1.6f + 2.5f * broken) * free_standing;
+    at(SurfaceRole::kProp) = 0.4f + 0.9f * free_standing * (1 - 0.6f * broken);
+    at(SurfaceRole::kGarment) = 0.4f + (2.6f + 2.5f * broken) * free_standing;
     at(SurfaceRole::kCoat) = 0.2f + (0.6f + 2.5f * broken) * free_standing;
     return weights;
 }

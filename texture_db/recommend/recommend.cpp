@@ -106,7 +106,7 @@ Expected<Recommendation> recommend_from(const SampleIndex& index, const Descript
             WEFT_TRY(seen, materials_by_model(*embeddings.model, index, request.plate, look));
             look.materials = std::move(seen);
         }
-        const RegionScorer scorer(index, model, request, region, look);
+        const RegionScorer scorer(index, request, region, look);
         out.regions.push_back(suggest_for(index, request, region, look, scorer));
         if (!region.keep.empty()) {
             choices.push_back({suggestion_kept(index, scorer, index.by_id.at(region.keep))});

@@ -40,7 +40,7 @@ struct RecommendRequest {
 
 /// The terms of a suggestion's score, each 0 … 1.
 struct ScoreTerms {
-    float material = 0;    ///< Similarity to the region's present material.
+    float material = 0;    ///< Similarity to the region's present surface.
     float use = 0;         ///< Usual for the region's role: a wall, the ground, a garment …
     float colour = 0;      ///< Harmony with the rest of the frame.
     float style = 0;       ///< Contrast, saturation and detail as in the rest of the frame.
@@ -57,7 +57,7 @@ struct Suggestion {
     std::vector<std::string> reasons;  ///< In words, the strongest first.
 };
 
-/// A group of suggestions: "Keep the material", "In harmony", "A contrast", …
+/// A group of suggestions: "Like now", "In harmony", "A contrast", …
 struct SuggestionScheme {
     std::string name;
     std::string why;
@@ -66,8 +66,9 @@ struct SuggestionScheme {
 
 struct RegionSuggestions {
     std::string region;
-    std::string
-        seen_as;  ///< Material that the region looks like, and its look: "stone, light grey".
+    /// The region's look and role, "light grey, striped; a wall"; with an image–text model also the
+    /// material that it looks like.
+    std::string seen_as;
     std::vector<Suggestion> suggestions;  ///< The best of all schemes, diverse.
     std::vector<SuggestionScheme> schemes;
 };

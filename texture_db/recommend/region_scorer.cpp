@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "texture_db/catalogue/licence.h"
-#include "texture_db/search/ranking.h"
 
 namespace weft {
 namespace {
@@ -13,12 +12,13 @@ namespace {
 using A = TextureAttribute;
 
 constexpr int kNeighbours = 9;
-// The appearance of the patches counts less than the region's position: a photograph's grey
-// feathers are as near to marble as to fur.
+// An image–text model counts less than the region's position: a photograph's grey feathers are as
+// near to marble as to fur.
 constexpr float kAppearanceWeight = 0.4f, kLeastAppearance = 0.08f;
+// What is green like plants is the ground so much more often, and a plant's texture suits it so
+// much better.
+constexpr float kGreenGround = 2, kGreenPlant = 5;
 constexpr float kNameless = 0.04f;  // the weight of roles that the region's name does not name
-constexpr float kServes = 0.7f;     // share of the best from which a material counts fully
-constexpr float kLikelihoodWidth = 2.0f;  // of distances between descriptors
 
 float ramp(float v) {
     return 1 / (1 + std::exp(-v));
@@ -54,6 +54,11 @@ float adjustment_fit(const RecommendAdjustments& w, const TextureAttributes& bas
     return fit;
 }
 
+// 0 … 1: how surely a mean colour is that of plants in daylight, green to yellow-green.
+float greenery(const LabColor& mean) {
+    return std::clamp((mean.b - 8) / 12, 0.0f, 1.0f) * std::clamp((-mean.a - 1) / 8, 0.0f, 1.0f);
+}
+
 float distance(std::span<const float> x, std::span<const float> y) {
     float d = 0;
     for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k)
@@ -63,71 +68,56 @@ float distance(std::span<const float> x, std::span<const float> y) {
 
 }  // namespace
 
-RegionScorer::RegionScorer(const SampleIndex& index, const DescriptorModel* model,
-                           const RecommendRequest& request, const RegionRequest& region,
-                           const RegionLook& look)
+RegionScorer::RegionScorer(const SampleIndex& index, const RecommendRequest& request,
+                           const RegionRequest& region, const RegionLook& look)
     : index_(index),
       request_(request),
       region_(region),
       look_(look),
       harmony_(look.surroundings),
-      likelihoods_(static_cast<std::size_t>(index.materials.size())),
       squared_(index.samples.size(), SampleIndex::kFar) {
     const auto like = index.by_id.find(request.adjust.like);
     like_ = like == index.by_id.end() ? index.samples.size() : like->second;
-    if (model != nullptr) find_materials(*model);
+    find_neighbours();
     find_role();
+    find_materials();
 }
 
-// The materials that the region looks like: for each patch a material is as likely as its nearest
-// sample and its centre are near (ranking.h); the patches are averaged.
-void RegionScorer::find_materials(const DescriptorModel& model) {
-    std::vector<float> near_ones, belief(likelihoods_.size());
+// How near every sample is to the nearest of the region's patches, and how near near ones are.
+void RegionScorer::find_neighbours() {
+    std::vector<float> near_ones;
     for (const auto& descriptor : look_.descriptors) {
         const std::vector<float> squared = index_.squared_distances(descriptor);
         for (std::size_t i = 0; i < squared.size(); ++i)
             squared_[i] = std::min(squared_[i], squared[i]);
         const auto neighbours = lowest(squared, kNeighbours);
         if (neighbours.size() > 8) near_ones.push_back(neighbours[8].distance);
-        const std::vector<float> away = material_distances(index_, model, descriptor);
-        const float least = *std::min_element(away.begin(), away.end());
-        float sum = 0;
-        for (std::size_t m = 0; m < away.size(); ++m)
-            sum += belief[m] = std::exp(-(away[m] - least) / kLikelihoodWidth);
-        for (std::size_t m = 0; m < away.size(); ++m)
-            likelihoods_[m] += belief[m] / sum;
     }
-    if (!near_ones.empty()) {
-        std::sort(near_ones.begin(), near_ones.end());
-        typical_ = std::max(near_ones[near_ones.size() / 2], 1e-3f);
-    }
-    scale_materials();
-    // An image–text model has the same weight as the library's own descriptor.
-    for (std::size_t m = 0; m < look_.materials.size(); ++m)
-        likelihoods_[m] += look_.materials[m];
-    scale_materials();
+    if (near_ones.empty()) return;
+    std::sort(near_ones.begin(), near_ones.end());
+    typical_ = std::max(near_ones[near_ones.size() / 2], 1e-3f);
 }
 
-void RegionScorer::scale_materials() {
-    const float most =
-        likelihoods_.empty() ? 0 : *std::max_element(likelihoods_.begin(), likelihoods_.end());
-    for (float& v : likelihoods_)
-        v = most > 0 ? v / most : 0;
-}
-
-// The region's role in the picture, from its appearance and its position; and how usual each
-// material is for that role.
+// The region's role in the picture, from its position, its colour and its name; and how usual each
+// material is for that role. The library's own descriptor has no say: it takes almost everything on
+// film, which is smaller, softer and lit unevenly, for metal, marble or tiles.
 void RegionScorer::find_role() {
-    for (int m = 0; m < index_.materials.size(); ++m)
-        materials_.push_back(roles_of_material(index_.materials.text(m)));
+    const float green = greenery(look_.inside.mean);
+    for (int m = 0; m < index_.materials.size(); ++m) {
+        const std::string& name = index_.materials.text(m);
+        materials_.push_back(roles_of_material(name));
+        const bool plant = name == "grass" || name == "foliage";
+        favour_.push_back(plant ? 1 + kGreenPlant * green : 1.0f);
+    }
     role_ = roles_of_place(look_.place);
+    role_[static_cast<std::size_t>(SurfaceRole::kGround)] *= 1 + kGreenGround * green;
     float seen = 0;
-    for (const float v : likelihoods_)
+    for (const float v : look_.materials)
         seen += v;
     for (std::size_t r = 0; seen > 0 && r < kSurfaceRoles; ++r) {
         float usual = 0;
         for (std::size_t m = 0; m < materials_.size(); ++m)
-            usual += likelihoods_[m] * materials_[m][r];
+            usual += look_.materials[m] * materials_[m][r];
         role_[r] *= std::pow(std::max(usual / seen, kLeastAppearance), kAppearanceWeight);
     }
     const RoleWeights named = roles_of_name(region_.name);
@@ -136,16 +126,28 @@ void RegionScorer::find_role() {
     const float sum = std::accumulate(role_.begin(), role_.end(), 0.0f);
     for (float& r : role_)
         r = sum > 0 ? r / sum : 1.0f / kSurfaceRoles;
-    for (const RoleWeights& material : materials_) {
-        // A material that is usual for every role is no evidence.
-        float use = 0;
-        for (std::size_t r = 0; r < kSurfaceRoles; ++r)
-            use += role_[r] * material[r] * material[r];
-        use_.push_back(use / std::accumulate(material.begin(), material.end(), 0.0f));
-    }
+    for (int m = 0; m < index_.materials.size(); ++m)
+        use_.push_back(suits(m, role_));
     const float best = use_.empty() ? 0 : *std::max_element(use_.begin(), use_.end());
     for (float& u : use_)
-        u = best > 0 ? std::min(u / (kServes * best), 1.0f) : 1;
+        u = best > 0 ? u / best : 1;
+}
+
+// What the image–text model sees, among the materials that such a region has.
+void RegionScorer::find_materials() {
+    likelihoods_ = look_.materials;
+    for (std::size_t m = 0; m < likelihoods_.size(); ++m)
+        likelihoods_[m] *= use_[m];
+    const float most =
+        likelihoods_.empty() ? 0 : *std::max_element(likelihoods_.begin(), likelihoods_.end());
+    for (float& v : likelihoods_)
+        v = most > 0 ? v / most : 0;
+}
+
+float RegionScorer::suits(int material, const RoleWeights& roles) const {
+    const RoleWeights& usual = materials_[static_cast<std::size_t>(material)];
+    return favour_[static_cast<std::size_t>(material)] *
+           std::inner_product(roles.begin(), roles.end(), usual.begin(), 0.0f);
 }
 
 SurfaceRole RegionScorer::role() const {
@@ -157,7 +159,9 @@ ScoredSample RegionScorer::score(std::size_t i) const {
     ScoredSample c;
     c.sample = static_cast<std::uint32_t>(i);
     const float beyond = std::max(0.0f, std::sqrt(squared_[i]) - typical_) / typical_;
-    c.parts.material = 0.45f * near(beyond, 0.8f) + 0.55f * material_likelihood(i);
+    c.parts.material = near(beyond, 0.8f);
+    if (const std::optional<float> likelihood = material_likelihood(i))
+        c.parts.material = 0.45f * c.parts.material + 0.55f * *likelihood;
     c.parts.use = use_[static_cast<std::size_t>(s.material)];
     c.parts.colour = harmony_.with(s.chroma, s.hue_deg);
     c.parts.style = style_fit(s, look_);

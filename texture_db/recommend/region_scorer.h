@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "texture_db/catalogue/index.h"
@@ -31,17 +32,18 @@ struct ScoredSample {
 class RegionScorer {
   public:
     /// `request.adjust.like` is a full id or empty.
-    RegionScorer(const SampleIndex& index, const DescriptorModel* model,
-                 const RecommendRequest& request, const RegionRequest& region,
-                 const RegionLook& look);
+    RegionScorer(const SampleIndex& index, const RecommendRequest& request,
+                 const RegionRequest& region, const RegionLook& look);
 
     [[nodiscard]] ScoredSample score(std::size_t sample) const;
     /// Every sample that the licences and the requested material allow, in the order of the index.
     [[nodiscard]] std::vector<ScoredSample> score_all() const;
-    /// Likelihood of each material of the index for the region's appearance: 1 is the likeliest.
+    /// The image–text model's likelihood of each material of the index, with what is usual for the
+    /// region's role: 1 is the likeliest. Empty without such a model.
     [[nodiscard]] const std::vector<float>& material_likelihoods() const { return likelihoods_; }
-    [[nodiscard]] float material_likelihood(std::size_t sample) const {
-        return likelihoods_[static_cast<std::size_t>(index_.looks[sample].material)];
+    [[nodiscard]] std::optional<float> material_likelihood(std::size_t sample) const {
+        if (likelihoods_.empty()) return {};
+        return likelihoods_[static_cast<std::size_t>(material(sample))];
     }
     /// The region's most likely role in the picture.
     [[nodiscard]] SurfaceRole role() const;
@@ -50,15 +52,22 @@ class RegionScorer {
     [[nodiscard]] const RoleWeights& roles() const { return role_; }
     /// True if a sample's material is usual for a role.
     [[nodiscard]] bool serves(std::size_t sample, std::size_t role) const {
-        return materials_[static_cast<std::size_t>(index_.looks[sample].material)][role] >= 0.6f;
+        return usual(material(sample))[role] >= 0.6f;
     }
+    [[nodiscard]] int material(std::size_t sample) const { return index_.looks[sample].material; }
+    /// How usual a material of the index is for each role.
+    [[nodiscard]] const RoleWeights& usual(int material) const {
+        return materials_[static_cast<std::size_t>(material)];
+    }
+    /// How well a material suits a region of these roles, in comparison with other materials.
+    [[nodiscard]] float suits(int material, const RoleWeights& roles) const;
     /// 0 … 1: how similar two samples are; 1 for two samples of one picture.
     [[nodiscard]] float likeness(std::size_t a, std::size_t b) const;
 
   private:
-    void find_materials(const DescriptorModel& model);
-    void scale_materials();
+    void find_neighbours();
     void find_role();
+    void find_materials();
 
     const SampleIndex& index_;
     const RecommendRequest& request_;
@@ -67,6 +76,7 @@ class RegionScorer {
     ColourHarmony harmony_;
     std::vector<float> likelihoods_, use_;  // by material
     std::vector<RoleWeights> materials_;    // by material
+    std::vector<float> favour_;             // by material: by the region's colour
     RoleWeights role_{};                    // sums to 1
     std::vector<float> squared_;            // distance to the nearest patch, by sample
     float typical_ = 1;                     // distance of a near neighbour

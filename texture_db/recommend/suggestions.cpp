@@ -17,8 +17,7 @@ struct Weights {
     float material, colour, style, scale, synthesis;
 };
 constexpr Weights kSchemes[]{
-    {"Keep the material", "the same kind of surface as now, other looks", 3.2f, 0.8f, 0.6f, 0.7f,
-     0.7f},
+    {"Like now", "surfaces that look much like the region's", 3.2f, 0.8f, 0.6f, 0.7f, 0.7f},
     {"In harmony", "colours that go with the rest of the frame", 0.9f, 3.0f, 1.0f, 0.7f, 0.8f},
     {"Same style", "as busy, as contrasty and as colourful as the rest of the frame", 0.8f, 1.0f,
      3.0f, 0.8f, 0.8f},
@@ -27,7 +26,9 @@ constexpr Weights kSchemes[]{
     {"Another material", "something else that would look at home here", -1.0f, 1.8f, 1.6f, 0.8f,
      0.8f},
 };
-constexpr float kUnlikely = 0.1f;    // a less likely role gets no place
+constexpr float kUnlikely = 0.06f;   // a less likely role gets no place
+constexpr float kServed = 0.6f;      // of a role's wish for a place, by a material usual for it
+constexpr float kAgain = 0.5f;       // of a material's chance of a place, for each that it has
 constexpr float kLikely = 0.5f;      // from here on the role is named
 constexpr float kGrowsWell = 0.55f;  // synthesis above this is good enough
 constexpr std::size_t kKeep = 0, kContrast = 3, kOther = 4;
@@ -51,13 +52,13 @@ std::vector<std::string> reasons_of(const SampleIndex& index, const RegionScorer
                                     const ScoredSample& c) {
     const std::string& material = index.materials.text(index.looks[c.sample].material);
     std::vector<std::pair<float, std::string>> found;
-    const float likelihood = scorer.material_likelihood(c.sample);
+    const float likelihood = scorer.material_likelihood(c.sample).value_or(0.0f);
     if (likelihood > 0.6f)
         found.emplace_back(likelihood, "is " + material + ", which the region looks like now");
     else if (c.parts.material > 0.5f)
         found.emplace_back(c.parts.material, "its surface is much like the region's");
     else if (c.parts.material < 0.15f)
-        found.emplace_back(0.3f, "a different material: " + material);
+        found.emplace_back(0.3f, "its surface is unlike the region's");
     if (scorer.likely_role() >= kLikely &&
         scorer.serves(c.sample, static_cast<std::size_t>(scorer.role())))
         found.emplace_back(0.55f, "usual for " + std::string(role_name(scorer.role())));
@@ -95,7 +96,7 @@ Suggestion suggestion_of(const SampleIndex& index, const RegionScorer& scorer,
 std::string seen_as(const SampleIndex& index, const RegionScorer& scorer, const RegionLook& look) {
     std::string out;
     const std::vector<float>& likelihoods = scorer.material_likelihoods();
-    if (!likelihoods.empty() && !look.descriptors.empty()) {
+    if (!likelihoods.empty()) {
         const auto best =
             std::max_element(likelihoods.begin(), likelihoods.end()) - likelihoods.begin();
         out = index.materials.text(static_cast<int>(best)) + ", ";
@@ -121,7 +122,8 @@ std::vector<Scored> best_of(const SampleIndex& index, const RegionScorer& scorer
     for (const ScoredSample& c : candidates) {
         float score = score_of(c, kSchemes[scheme]);
         if (scheme == kContrast) score *= 0.25f + 0.75f * c.stands_out;
-        if (scheme == kOther && scorer.material_likelihood(c.sample) > 0.5f) score *= 0.3f;
+        if (scheme == kOther && scorer.material_likelihood(c.sample).value_or(0.0f) > 0.5f)
+            score *= 0.3f;
         pool.push_back({score, &c});
     }
     const auto better = [&](const Scored& a, const Scored& b) {
@@ -146,61 +148,101 @@ std::vector<Scored> best_of(const SampleIndex& index, const RegionScorer& scorer
     return pool;
 }
 
-// Distributes places over the region's possible roles in proportion to their likelihood
-// (Sainte-Laguë 1910). The role is uncertain, so no role takes all places.
-class Places {
+// Whose turn it is among the materials. What the region is is uncertain, so each place goes to the
+// material that most probably suits it if all before do not: a place takes from the likelihood of
+// the roles that its material serves.
+class Turns {
   public:
-    explicit Places(const RoleWeights& likely) : likely_(likely) {
-        for (float& l : likely_)
+    Turns(const SampleIndex& index, const RegionScorer& scorer)
+        : scorer_(scorer),
+          left_(scorer.roles()),
+          chance_(static_cast<std::size_t>(index.materials.size()), 1.0f) {
+        for (float& l : left_)
             l = l < kUnlikely ? 0 : l;
     }
-    // The role that gets the next place.
-    [[nodiscard]] std::size_t next() const {
-        std::size_t best = 0;
-        for (std::size_t r = 1; r < likely_.size(); ++r) {
-            if (claim(r) > claim(best)) best = r;
+    // Nothing once all are excluded.
+    [[nodiscard]] std::optional<int> next() const {
+        std::optional<int> best;
+        float most = 0;
+        for (std::size_t m = 0; m < chance_.size(); ++m) {
+            const float claim = chance_[m] * scorer_.suits(static_cast<int>(m), left_);
+            if (claim > most) most = claim, best = static_cast<int>(m);
         }
         return best;
     }
-    void give(std::size_t role) { given_[role] += 1; }
+    void give(int material) {
+        const RoleWeights& usual = scorer_.usual(material);
+        for (std::size_t r = 0; r < left_.size(); ++r)
+            left_[r] *= 1 - kServed * usual[r];
+        chance_[static_cast<std::size_t>(material)] *= kAgain;
+    }
+    void exclude(int material) { chance_[static_cast<std::size_t>(material)] = 0; }
 
   private:
-    [[nodiscard]] float claim(std::size_t r) const { return likely_[r] / (2 * given_[r] + 1); }
-    RoleWeights likely_, given_{};
+    const RegionScorer& scorer_;
+    RoleWeights left_;
+    std::vector<float> chance_;  // by material
 };
 
-// Maximal marginal relevance (Carbonell & Goldstein 1998) among the samples of the role that gets
-// the next place; among all without `places`.
-std::vector<Scored> diverse(const std::vector<Scored>& pool, const RegionScorer& scorer, int count,
-                            float diversity, std::optional<Places> places) {
-    std::vector<Scored> out;
-    std::vector<float> likest(pool.size(), 0);
-    std::vector<bool> taken(pool.size(), false);
-    while (static_cast<int>(out.size()) < count && out.size() < pool.size()) {
-        const std::size_t role = places ? places->next() : 0;
-        const auto best_among = [&](bool all) {
-            std::size_t best = pool.size();
-            float best_value = -1e9f;
-            for (std::size_t i = 0; i < pool.size(); ++i) {
-                if (taken[i] || (!all && !scorer.serves(pool[i].candidate->sample, role))) continue;
-                const float value = (1 - diversity) * pool[i].score - diversity * likest[i];
-                if (value > best_value) {
-                    best_value = value;
-                    best = i;
-                }
-            }
-            return best;
-        };
-        std::size_t best = best_among(!places);
-        if (best == pool.size()) best = best_among(true);
-        if (places) places->give(role);
-        taken[best] = true;
-        out.push_back(pool[best]);
-        for (std::size_t i = 0; i < pool.size(); ++i) {
-            if (!taken[i])
-                likest[i] = std::max(likest[i], scorer.likeness(pool[i].candidate->sample,
-                                                                pool[best].candidate->sample));
+// The candidates of a scheme. Maximal marginal relevance (Carbonell & Goldstein 1998): the best is
+// good and unlike those chosen before.
+class Pool {
+  public:
+    Pool(std::vector<Scored> candidates, const RegionScorer& scorer)
+        : candidates_(std::move(candidates)),
+          scorer_(scorer),
+          likest_(candidates_.size(), 0.0f),
+          taken_(candidates_.size(), false) {}
+    // Of one material, or of all; null if none is left.
+    [[nodiscard]] const Scored* best(float diversity, std::optional<int> material) const {
+        const Scored* best = nullptr;
+        float most = 0;
+        for (std::size_t i = 0; i < candidates_.size(); ++i) {
+            if (taken_[i] ||
+                (material && scorer_.material(candidates_[i].candidate->sample) != *material))
+                continue;
+            const float value = (1 - diversity) * candidates_[i].score - diversity * likest_[i];
+            if (!best || value > most) most = value, best = &candidates_[i];
         }
+        return best;
+    }
+    // Whether it is one of these or not.
+    void choose(std::uint32_t sample) {
+        for (std::size_t i = 0; i < candidates_.size(); ++i) {
+            const std::uint32_t own = candidates_[i].candidate->sample;
+            if (own == sample) taken_[i] = true;
+            if (!taken_[i]) likest_[i] = std::max(likest_[i], scorer_.likeness(own, sample));
+        }
+    }
+
+  private:
+    std::vector<Scored> candidates_;
+    const RegionScorer& scorer_;
+    std::vector<float> likest_;
+    std::vector<bool> taken_;
+};
+
+// The next of a pool: of the material whose turn it is, or of any.
+const Scored* next_of(const Pool& pool, float diversity, Turns& turns) {
+    while (const std::optional<int> material = turns.next()) {
+        if (const Scored* found = pool.best(diversity, material)) {
+            turns.give(*material);
+            return found;
+        }
+        turns.exclude(*material);
+    }
+    return pool.best(diversity, std::nullopt);
+}
+
+// In the order of choice; without `turns` the materials do not matter.
+std::vector<Scored> diverse(Pool pool, int count, float diversity, std::optional<Turns> turns) {
+    std::vector<Scored> out;
+    while (static_cast<int>(out.size()) < count) {
+        const Scored* next =
+            turns ? next_of(pool, diversity, *turns) : pool.best(diversity, std::nullopt);
+        if (!next) break;
+        out.push_back(*next);
+        pool.choose(next->candidate->sample);
     }
     return out;
 }
@@ -232,31 +274,16 @@ void bring_cloth_forward(const RegionScorer& scorer, const std::vector<Suggestio
     }
 }
 
-// The best of all schemes in turn, each texture once, each for the role that gets the next place.
-std::vector<Suggestion> best_of_all(const SampleIndex& index, const RegionScorer& scorer,
-                                    const std::vector<SuggestionScheme>& schemes, int count) {
-    std::vector<Suggestion> out;
-    Places places(scorer.roles());
-    const auto take = [&](const SuggestionScheme& scheme, std::optional<std::size_t> role) {
-        for (const Suggestion& s : scheme.suggestions) {
-            const bool there = std::any_of(out.begin(), out.end(),
-                                           [&](const Suggestion& o) { return o.id == s.id; });
-            if (there || (role && !scorer.serves(index.by_id.at(s.id), *role))) continue;
-            out.push_back(s);
-            return true;
-        }
-        return false;
-    };
-    int idle = 0;  // consecutive schemes without a suggestion
-    for (std::size_t turn = 0;
-         static_cast<int>(out.size()) < count && idle < static_cast<int>(schemes.size()); ++turn) {
-        const SuggestionScheme& scheme = schemes[turn % schemes.size()];
-        const std::size_t role = places.next();
-        const bool taken = take(scheme, role) || take(scheme, std::nullopt);
-        if (taken) places.give(role);
-        idle = taken ? 0 : idle + 1;
+// The best of all schemes in turn, each texture once.
+std::vector<Scored> best_of_all(std::vector<Pool> pools, int count, float diversity, Turns turns) {
+    std::vector<Scored> out;
+    for (std::size_t turn = 0; static_cast<int>(out.size()) < count; ++turn) {
+        const Scored* next = next_of(pools[turn % pools.size()], diversity, turns);
+        if (!next) break;
+        out.push_back(*next);
+        for (Pool& pool : pools)
+            pool.choose(out.back().candidate->sample);
     }
-    bring_cloth_forward(scorer, schemes, out);
     return out;
 }
 
@@ -270,16 +297,24 @@ RegionSuggestions suggest_for(const SampleIndex& index, const RecommendRequest& 
     out.seen_as = seen_as(index, scorer, look);
     const std::vector<ScoredSample> candidates = scorer.score_all();
     const float diversity = std::clamp(request.diversity, 0.0f, 1.0f);
+    const Turns turns(index, scorer);
+    const auto suggestions = [&](const std::vector<Scored>& chosen) {
+        std::vector<Suggestion> list;
+        for (const Scored& one : chosen)
+            list.push_back(suggestion_of(index, scorer, *one.candidate, one.score));
+        return list;
+    };
+    std::vector<Pool> pools;
     for (std::size_t s = 0; s < std::size(kSchemes); ++s) {
-        SuggestionScheme scheme{kSchemes[s].name, kSchemes[s].why, {}};
-        const auto pool = best_of(index, scorer, candidates, s);
+        pools.emplace_back(best_of(index, scorer, candidates, s), scorer);
         const bool mixed = s != kKeep && diversity > 0;
-        const auto places = mixed ? std::optional(Places(scorer.roles())) : std::nullopt;
-        for (const Scored& one : diverse(pool, scorer, request.count, diversity, places))
-            scheme.suggestions.push_back(suggestion_of(index, scorer, *one.candidate, one.score));
-        if (!scheme.suggestions.empty()) out.schemes.push_back(std::move(scheme));
+        auto list = suggestions(diverse(pools.back(), request.count, diversity,
+                                        mixed ? std::optional(turns) : std::nullopt));
+        if (!list.empty())
+            out.schemes.push_back({kSchemes[s].name, kSchemes[s].why, std::move(list)});
     }
-    out.suggestions = best_of_all(index, scorer, out.schemes, request.count);
+    out.suggestions = suggestions(best_of_all(std::move(pools), request.count, diversity, turns));
+    bring_cloth_forward(scorer, out.schemes, out.suggestions);
     return out;
 }
 

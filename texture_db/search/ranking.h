@@ -9,13 +9,6 @@
 
 namespace weft {
 
-/// By material of the index: the least distance of its samples, where a sample's distance is its
-/// own plus 0.7 times that of its material's centre; very far for a material that the model does
-/// not know.
-[[nodiscard]] std::vector<float> material_distances(const SampleIndex& index,
-                                                    const DescriptorModel& model,
-                                                    std::span<const float> descriptor);
-
 /// Ordered by a sample's own distance plus 0.7 times that of its material's centre. The first five
 /// are the nearest of five materials, because the picture's material is uncertain; then all others.
 /// `distance` is the compared value.

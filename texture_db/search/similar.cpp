@@ -60,14 +60,6 @@ std::vector<Neighbour> best_of_each(const SampleIndex& index, const std::vector<
 
 }  // namespace
 
-std::vector<float> material_distances(const SampleIndex& index, const DescriptorModel& model,
-                                      std::span<const float> descriptor) {
-    std::vector<float> out;
-    for (const Neighbour& n : best_of_each(index, judged(index, model, descriptor)))
-        out.push_back(n.distance);
-    return out;
-}
-
 std::vector<Neighbour> rank_for_picture(const SampleIndex& index, const DescriptorModel& model,
                                         std::span<const float> descriptor, std::size_t count) {
     std::vector<Neighbour> all = judged(index, model, descriptor);
