@@ -81,6 +81,7 @@ struct TextureCount {
 struct TextureAnswer {
     std::vector<std::string> paths;               ///< Results, best first.
     std::vector<TextureCount> origins, licences;  ///< Counts over all results, most frequent first.
+    std::string note;  ///< Which words found nothing, a sentence; empty: all found something.
 };
 
 /// A region for which textures are suggested.

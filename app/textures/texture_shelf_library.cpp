@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 // The part of TextureShelf that accesses the texture library.
 #include "app/base/background.h"
 #include "app/textures/larger_original.h"
@@ -35,6 +37,16 @@ std::string outcome_of(const ImportReport& report) {
     return out;
 }
 
+// "No texture matches every word: the nearest lack 'cable'."
+std::string note_on(const SearchResult& found) {
+    if (!found.ignored.empty())
+        return fmt::format("Nothing in the library is called '{}'.",
+                           fmt::join(found.ignored, "', '"));
+    if (found.missing.empty()) return {};
+    return fmt::format("No texture matches every word: the nearest lack '{}'.",
+                       fmt::join(found.missing, "', '"));
+}
+
 TextureAnswer answer_to(TextureLibrary& library, const TextureQuery& question) {
     SearchQuery query;
     query.text = question.words;
@@ -50,6 +62,7 @@ TextureAnswer answer_to(TextureLibrary& library, const TextureQuery& question) {
             answer.paths.push_back("db:" + hit.id);
         answer.origins = counts_of(found->origins);
         answer.licences = counts_of(found->licences);
+        answer.note = note_on(*found);
     }
     return answer;
 }
@@ -78,7 +91,7 @@ std::vector<TextureSuggestion> ranked_for(TextureLibrary& library, const Surface
     std::vector<TextureSuggestion> out;
     if (!found || found->regions.empty()) return out;
     // What scores far below the best, or has nothing to say for it, is a guess and is not shown.
-    constexpr float kGuess = 0.6f;
+    constexpr float kGuess = 0.35f;
     float best = 0;
     for (const Suggestion& one : found->regions[0].suggestions)
         best = std::max(best, one.score);

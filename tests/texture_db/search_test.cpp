@@ -158,6 +158,12 @@ TEST(Search, SaysWhatItUnderstoodAndWhatNot) {
     const auto nothing = library->search(query);
     EXPECT_EQ(nothing->total, 0);
     EXPECT_THAT(nothing->ignored, testing::ElementsAre("xqzzkw"));
+    query.text = "wood cable";
+    const auto nearest = library->search(query);
+    EXPECT_GT(nearest->total, 0);
+    EXPECT_THAT(nearest->missing, testing::ElementsAre("cable"));
+    query.text = "wood";
+    EXPECT_THAT(library->search(query)->missing, testing::IsEmpty());
     query.text = "\"wood\" AND ( OR *";
     EXPECT_TRUE(library->search(query)) << "no syntax of the index gets through";
 }

@@ -84,6 +84,8 @@ struct SearchResult {
     std::vector<FacetCount> materials, origins, packages, licences, categories, colours;
     std::vector<std::string> understood;  ///< How each word was read: "timbr → timber → wood".
     std::vector<std::string> ignored;     ///< Words that match nothing in the library.
+    /// Where no texture matches every word and the nearest are the hits: what the best lacks.
+    std::vector<std::string> missing;
     double seconds = 0;
 };
 

@@ -227,6 +227,8 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     } else if (wanted.empty() && d.material.empty() && d.collection.empty() && d.origin.empty() &&
                d.licence.empty() && d.look.empty() && !d.favourites_only && !d.recent_only) {
         d.together ? suggested_together(c, cards) : suggested(c, cards);
+    } else if (d.answer && !d.answer->note.empty()) {
+        quiet(c, d.answer->note.c_str());
     }
     if (shown.empty()) {
         if (!d.collection.empty())

@@ -1,5 +1,7 @@
 #include "app/cli/texture/texture_commands.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -190,6 +192,10 @@ CommandResult texture_search_command(const TextureCommandOptions& common,
     if (!json_output()) {
         for (const std::string& line : result.understood)
             print(stderr, "weft: " + line + "\n");
+        if (!result.missing.empty())
+            print(stderr,
+                  fmt::format("weft: no texture matches every word: the nearest lack '{}'\n",
+                              fmt::join(result.missing, "', '")));
         for (const std::string& word : result.ignored)
             print(stderr, "weft: unknown word '" + word + "' was ignored\n");
     }

@@ -112,6 +112,7 @@ Json to_json(const SearchResult& r) {
               {"colours", counts(r.colours)}}},
             {"understood", r.understood},
             {"ignored", r.ignored},
+            {"missing", r.missing},
             {"seconds", r.seconds}};
 }
 
