@@ -303,7 +303,6 @@ void project_temporal(const TemporalParams& temporal, RegionPlan& plan) {
 Status project_light(const LightParams& light, bool display_referred, RegionPlan& plan) {
     plan.light_source = light.source;
     plan.light = {light.form, static_cast<float>(light.strength)};
-    plan.light.least_gain = display_referred ? kLeastGain : 0;
     if (!display_referred) plan.light.most_gain = std::numeric_limits<float>::max();
     plan.strength_keys = light.strength_keys;
     plan.lamps = light.lamps;
@@ -319,6 +318,9 @@ Status project_light(const LightParams& light, bool display_referred, RegionPlan
     plan.light_pass = !light.lighting.empty() ? RegionPlan::Pass::kLighting
                       : !light.albedo.empty() ? RegionPlan::Pass::kAlbedo
                                               : RegionPlan::Pass::kNone;
+    // An estimate of no light at all is an error; a pass may be black.
+    const bool estimated = display_referred && plan.light_pass == RegionPlan::Pass::kNone;
+    plan.light.least_gain = estimated ? kLeastGain : 0;
     plan.exact_light = light.exact;
     if (light.exact && plan.light_pass == RegionPlan::Pass::kNone) {
         return fail(ErrorCode::kUsage, "Exact light needs a pass.",

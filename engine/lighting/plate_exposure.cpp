@@ -15,6 +15,7 @@ namespace {
 constexpr float kBrightShare = 0.95f;
 constexpr float kFullestShare = 0.99f;
 constexpr float kLeastLuma = 1e-4f;  // less is black
+constexpr float kLeastGain = 0.02f;  // what has less light does not show its paint
 constexpr float kLeastExposure = 1.0f / 16, kMostExposure = 4.0f;
 
 struct Lumas {
@@ -40,7 +41,7 @@ Lumas lumas_of(ViewF3 plate, ViewU8x1 visible, const Shading* shading, float ref
             if (!std::isfinite(gain) || !(gain > 0)) continue;
             out.surface.push_back(std::max(kLeastLuma, luma));
             out.gain.push_back(gain);
-            out.paint.push_back(std::max(kLeastLuma, luma) / gain);
+            if (gain >= kLeastGain) out.paint.push_back(std::max(kLeastLuma, luma) / gain);
         }
     }
     return out;
@@ -58,7 +59,8 @@ PlateExposure plate_exposure(ViewF3 plate, ViewU8x1 visible, const Shading* shad
     const float in_full = std::log(greys.white / full);
     float white = std::exp((here + whole + in_full) / 3);
     if (greys.ends_at_one) white = std::min(white, greys.whitest / full);
-    white = std::max(white, quantile(lumas.paint, kBrightShare) / greys.whitest);
+    if (!lumas.paint.empty())
+        white = std::max(white, quantile(lumas.paint, kBrightShare) / greys.whitest);
     white = std::clamp(white, kLeastExposure, kMostExposure);
     return {white, white * quantile(lumas.gain, kFullestShare)};
 }

@@ -93,9 +93,10 @@ struct LogShading {
 [[nodiscard]] Shading shading_from_image(ViewF3 linear_picture, const Recti& box, Size full);
 
 /// Shading from the artist's passes, exact at full size. A lighting pass is the shading itself;
-/// from an albedo pass it is plate / albedo (linear light, the plate's size). Pixels that are black
-/// or not finite are filled from their surroundings.
-[[nodiscard]] Shading shading_from_lighting(ViewF3 lighting);
+/// from an albedo pass it is plate / albedo (linear light, the plate's size). Where a pass tells
+/// nothing (not finite; an albedo that is black; light that is black where the plate has 0.02 or
+/// more, since the pass does not cover it) it is filled from its surroundings.
+[[nodiscard]] Shading shading_from_lighting(ViewF3 lighting, ViewF3 linear_plate);
 [[nodiscard]] Shading shading_from_albedo(ViewF3 linear_plate, ViewF3 albedo);
 
 struct LightOptions {

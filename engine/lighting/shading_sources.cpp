@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "engine/core/luma.h"
+#include "engine/core/median.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/masked_filters.h"
-#include "engine/lighting/median.h"
 #include "engine/lighting/shading.h"
 
 namespace weft {
@@ -43,8 +43,9 @@ bool any_visible(ViewU8x1 visible, int x0, int y0, int d) {
     return false;
 }
 
-// Fills the shading with `value(x, y)`. Negative values are unknown and filled from their
-// surroundings. `band`: rows that one thread takes at a time.
+// Fills the shading with `value(x, y)`. Values that are negative or not finite are unknown and
+// filled from their surroundings; without a known value there is no light. `band`: rows that one
+// thread takes at a time.
 template <class Value>
 void measure(Shading& shading, int band, const Value& value) {
     const Size size = shading.value.size();
@@ -53,7 +54,7 @@ void measure(Shading& shading, int band, const Value& value) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < size.width; ++x) {
                 const float light = value(x, y);
-                if (light < 0) continue;
+                if (!(std::isfinite(light) && light >= 0)) continue;
                 shading.value.row(y)[x] = light;
                 known.row(y)[x] = 255;
             }
@@ -64,36 +65,23 @@ void measure(Shading& shading, int band, const Value& value) {
         shading.value.data()[i] = std::max(kDarkest, shading.value.data()[i]);
 }
 
-// A shading at full size from `value(x, y)`. Values not above 0 are unknown, unless all of them are
-// black: then there is no light.
 template <class Value>
 Shading full_shading(Size size, const Value& value) {
     Shading shading{ImageF1(size, 1.0f), 1, size};
-    if (size.empty()) return shading;
-    bool any_light = false, black = false;
-    for (int y = 0; y < size.height && !any_light; ++y) {
-        for (int x = 0; x < size.width && !any_light; ++x) {
-            const float here = value(x, y);
-            any_light = std::isfinite(here) && here > 0;
-            black = black || here == 0;
-        }
-    }
-    if (black && !any_light) {
-        shading.value = ImageF1(size, kDarkest);
-        return shading;
-    }
-    measure(shading, 16, [&](int x, int y) {
-        const float light = value(x, y);
-        return std::isfinite(light) && light > 0 ? light : -1.0f;
-    });
+    if (!size.empty()) measure(shading, 16, value);
     return shading;
 }
 
+// A pass that is black where the plate is not does not cover that place.
+constexpr float kLitPlate = 0.02f;
+
 }  // namespace
 
-Shading shading_from_lighting(ViewF3 lighting) {
-    return full_shading(lighting.size(),
-                        [&](int x, int y) { return luma_709(lighting.pixel(x, y)); });
+Shading shading_from_lighting(ViewF3 lighting, ViewF3 linear_plate) {
+    return full_shading(lighting.size(), [&](int x, int y) {
+        const float light = luma_709(lighting.pixel(x, y));
+        return light > 0 || luma_709(linear_plate.pixel(x, y)) < kLitPlate ? light : -1.0f;
+    });
 }
 
 Shading shading_from_albedo(ViewF3 linear_plate, ViewF3 albedo) {

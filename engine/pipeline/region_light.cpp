@@ -35,7 +35,7 @@ Expected<std::optional<Shading>> region_shading(const ShotSource& source, const 
         WEFT_TRY(pass, source.light_pass(index, frame));
         return Found(region.light_pass == RegionPlan::Pass::kAlbedo
                          ? shading_from_albedo(working, pass)
-                         : shading_from_lighting(pass));
+                         : shading_from_lighting(pass, working));
     }
     if (!region.estimates_light()) return Found(std::nullopt);
     WEFT_TRY(bytes, store.get({index, frame, AnalysisKind::kShading}));

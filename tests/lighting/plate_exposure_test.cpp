@@ -75,6 +75,14 @@ TEST(PlateExposure, TakesTheFullestLightForWhite) {
 }
 
 // Large white patches that were taken for light: paint in the shade would reflect more than all.
+// What is left of light and plate in a cast shadow is rounding.
+TEST(PlateExposure, TakesNoPaintFromWhereThereIsNoLight) {
+    const Shading shaded = light_of(1e-5f);
+    const PlateExposure found =
+        plate_exposure(lit_plate(0.2f, 0.6f, 1e-3f), surface_matte(), &shaded, 1);
+    EXPECT_LT(found.white, 1);
+}
+
 TEST(PlateExposure, KeepsPaintPossible) {
     const Shading light = light_of(5);
     const PlateExposure found =

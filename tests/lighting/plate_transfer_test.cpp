@@ -89,7 +89,22 @@ TEST(PlateTransfer, AnArtistsPassIsTheExactShading) {
     EXPECT_EQ(s.downscale, 1);
     EXPECT_NEAR(s.value.at(5, 5), 0.3f, 1e-5f);
     EXPECT_NEAR(s.value.at(3, 3), 0.3f, 1e-4f);
-    EXPECT_NEAR(shading_from_lighting(plate).value.at(0, 0), 0.06f, 1e-6f);
+    EXPECT_NEAR(shading_from_lighting(plate, plate).value.at(0, 0), 0.06f, 1e-6f);
+}
+
+TEST(PlateTransfer, APassIsBlackWhereNoLightFalls) {
+    ImageF3 lighting(8, 8, 0.3f), plate(8, 8, 0.06f);
+    const auto blacken = [](ImageF3& picture, int x, int y) {
+        std::fill_n(picture.pixel(x, y), 3, 0.0f);
+    };
+    blacken(lighting, 2, 2);  // a cast shadow
+    blacken(plate, 2, 2);
+    blacken(lighting, 6, 6);  // not covered by the pass: the plate is lit
+    const Shading s = shading_from_lighting(lighting, plate);
+    EXPECT_LT(s.value.at(2, 2), 1e-3f);
+    EXPECT_NEAR(s.value.at(6, 6), 0.3f, 1e-4f);
+    const ImageF3 albedo(8, 8, 0.2f);
+    EXPECT_LT(shading_from_albedo(plate, albedo).value.at(2, 2), 1e-3f);
 }
 
 }  // namespace
