@@ -113,10 +113,26 @@ Status know_inputs(const JobSpec& spec, const std::vector<int>& leave_out, JobSe
                 "Submit again.");
 }
 
+// DWA changes channels called R, G, B and Y as an eye would not see it, also those of layers:
+// places move, and regions get other numbers.
+Status check_layer_compression(const Output& output) {
+    if (!output.exr_compression.starts_with("dwa")) return {};
+    for (const LayerKind kind : {LayerKind::kSt, LayerKind::kId}) {
+        if (std::ranges::find(output.layers, kind) == output.layers.end()) continue;
+        return fail(ErrorCode::kUsage,
+                    "The EXR compression " + output.exr_compression + " would change the layer '" +
+                        std::string(info_of(kind).name) + "', which has to be exact.",
+                    "Use zip, zips or piz" + by({{setting::kExrCompression}}) +
+                        ", or leave the layer out.");
+    }
+    return {};
+}
+
 // Layers go into the output if it is EXR, otherwise into separate files.
 Status choose_layer_files(JobSetup& setup) {
     const Output& output = setup.shot->project.output;
     if (output.layers.empty()) return {};
+    WEFT_CHECK_OK(check_layer_compression(output));
     if (output.layers_path.empty()) {
         if (is_exr(output.path)) return {};
         return fail(ErrorCode::kUsage, "Layers need an EXR.",

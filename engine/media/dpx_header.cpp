@@ -16,6 +16,7 @@ constexpr std::size_t kHeader_bytes = 2048;
 constexpr std::size_t kElements_at = 770, kWidth_at = 772, kHeight_at = 776;
 constexpr std::size_t kElement_at = 780, kElement_bytes = 72, kMostElements = 8;
 constexpr std::uint32_t kUndefined = 0xFFFFFFFF;
+constexpr std::uint64_t kWord_bytes = 4;
 
 class Header {
   public:
@@ -49,32 +50,41 @@ std::uint64_t line_bytes(std::uint64_t samples, std::uint32_t bits, std::uint32_
     return (samples * bits + 7) / 8;
 }
 
-// The least end of the pixels of element `k`, in bytes; 0: unknown.
-std::uint64_t end_of_element(const Header& header, std::size_t k) {
+struct ElementEnd {
+    std::uint64_t least = 0;  // of the pixels, in bytes; 0: unknown
+    // If each line is filled to words of 32 bits without the header saying so; 0: if it is not, or
+    // cannot be.
+    std::uint64_t filled = 0;
+};
+
+ElementEnd end_of_element(const Header& header, std::size_t k) {
     const std::size_t at = kElement_at + k * kElement_bytes;
     const std::uint64_t samples = samples_of(header.number(at + 20, 1));
     const std::uint32_t bits = header.number(at + 23, 1), packing = header.number(at + 24, 2);
     const bool compressed = header.number(at + 26, 2) == 1;
     std::uint64_t offset = header.number(at + 28, 4);
-    if (samples == 0 || bits == 0 || bits > 64 || compressed) return 0;
+    if (samples == 0 || bits == 0 || bits > 64 || compressed) return {};
     if (offset == 0 || offset == kUndefined) {
-        if (k > 0) return 0;
+        if (k > 0) return {};
         offset = header.number(4, 4);
     }
     const std::uint64_t padding = header.number(at + 32, 4);
     const std::uint64_t width = header.number(kWidth_at, 4), height = header.number(kHeight_at, 4);
-    constexpr std::uint64_t kMostPixels = 1
-                                          // A side; beyond it the decoder reports the error.
-                                          << 20;
-    if (width > kMostPixels || height > kMostPixels) return 0;
+    // A side; beyond it the decoder reports the error.
+    constexpr std::uint64_t kMostPixels = 1 << 20;
+    if (width > kMostPixels || height > kMostPixels) return {};
     const std::uint64_t line = line_bytes(width * samples, bits, packing);
     const bool padded = padding != kUndefined && padding < line;
-    return offset + height * line + (padded && height > 0 ? (height - 1) * padding : 0);
+    const std::uint64_t pad = padded ? padding : 0;
+    ElementEnd out{offset + height * line + (height > 0 ? (height - 1) * pad : 0)};
+    if (pad == 0 && line % kWord_bytes != 0)
+        out.filled = offset + height * ((line + kWord_bytes - 1) / kWord_bytes * kWord_bytes);
+    return out;
 }
 
 }  // namespace
 
-Status check_dpx_length(const std::string& path) {
+Status check_dpx_layout(const std::string& path) {
     WEFT_TRY(file, InputFile::open(path));
     std::array<unsigned char, kHeader_bytes> bytes{};
     WEFT_TRY(count, file.read_at(0, bytes.data(), bytes.size()));
@@ -83,12 +93,22 @@ Status check_dpx_length(const std::string& path) {
     const Header header(bytes, magic == "XPDS");
     std::uint64_t needed = kHeader_bytes;
     const std::size_t elements = header.number(kElements_at, 2);
-    for (std::size_t k = 0; k < elements && k < kMostElements; ++k)
-        needed = std::max(needed, end_of_element(header, k));
-    if (count == bytes.size() && file.bytes() >= needed) return {};
-    return tl::unexpected(damaged(path, "it has " + std::to_string(file.bytes()) +
-                                            " bytes, but its header and pixels take " +
-                                            std::to_string(needed)));
+    bool filled = false;
+    for (std::size_t k = 0; k < elements && k < kMostElements; ++k) {
+        const ElementEnd end = end_of_element(header, k);
+        needed = std::max(needed, end.least);
+        filled = filled || (end.filled > 0 && end.filled == file.bytes());
+    }
+    if (count < bytes.size() || file.bytes() < needed) {
+        return tl::unexpected(damaged(path, "it has " + std::to_string(file.bytes()) +
+                                                " bytes, but its header and pixels take " +
+                                                std::to_string(needed)));
+    }
+    if (!filled) return {};
+    return tl::unexpected(
+        unreadable(path, "its lines are filled to four bytes, which its header does not say",
+                   "Convert it to a DPX of 10 bits, an EXR or a PNG (ffmpeg, which writes such "
+                   "files, reads them)."));
 }
 
 }  // namespace weft

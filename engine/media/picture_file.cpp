@@ -114,7 +114,7 @@ Status check_picture_file(const std::string& path) {
     if (stamp.bytes == 0) {
         return tl::unexpected(unreadable(path, "it is empty (0 bytes)", "Write or copy it again."));
     }
-    WEFT_CHECK_OK(check_dpx_length(path));
+    WEFT_CHECK_OK(check_dpx_layout(path));
     return check_exr_header(path);
 }
 

@@ -82,6 +82,20 @@ TEST_F(Studio, LayersNeedAnExr) {
     EXPECT_FALSE(alpha("layers/0001.exr", "patch").empty());
 }
 
+TEST_F(Studio, LayersOfPlacesAreKeptFromLossyCompression) {
+    make_shot(2);
+    const Words lossy{"--exr-compression", "dwaa", "-o", "out/####.exr"};
+    const auto with_layers = [&](const std::string& layers) {
+        Words arguments = lossy;
+        arguments.insert(arguments.end(), {"--layers", layers});
+        return run_replace(arguments);
+    };
+    expect_failure(with_layers("patch,st"), 2, {"'st'", "--exr-compression", "zip"});
+    expect_failure(with_layers("id"), 2, {"'id'"});
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+    expect_success(with_layers("patch"));
+}
+
 TEST_F(Studio, VersionUpTakesTheNextFreeOne) {
     WEFT_NEEDS_MOVIES();
     make_shot(2);

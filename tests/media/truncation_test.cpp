@@ -105,6 +105,27 @@ TEST_F(Truncation, DpxOfTenTwelveAndSixteenBits) {
         expect_never_read("a" + std::to_string(bits) + ".dpx", PixelDepth::kU16, bits);
 }
 
+// As ffmpeg writes lines of 39 bytes; OpenImageIO would read them one byte further on each time.
+TEST_F(Truncation, DpxWhoseLinesAreFilledIsRefused) {
+    constexpr Size kPicture{13, 9};
+    WriteOptions options;
+    options.depth = PixelDepth::kU8;
+    ASSERT_TRUE(write_image(in("a.dpx"), picture(kPicture, 3), {}, options));
+    ASSERT_TRUE(read_image(in("a.dpx")));
+    const auto bytes = bytes_of(in("a.dpx"));
+    const std::ptrdiff_t line = 3 * kPicture.width, pixels = line * kPicture.height;
+    std::vector<char> filled(bytes.begin(), bytes.end() - pixels);
+    for (auto at = bytes.end() - pixels; at != bytes.end(); at += line) {
+        filled.insert(filled.end(), at, at + line);
+        filled.push_back(0);
+    }
+    put_bytes(in("filled.dpx"), filled, filled.size());
+    const auto frame = read_image(in("filled.dpx"));
+    ASSERT_FALSE(frame);
+    EXPECT_EQ(frame.error().code, ErrorCode::kUnreadable);
+    EXPECT_THAT(frame.error().sentence(), HasSubstr("filled to four bytes"));
+}
+
 TEST_F(Truncation, DamagedPngIsUnreadableInOneLine) {
     put_frame(in("whole.png"), picture({160, 120}, 3));
     auto bytes = bytes_of(in("whole.png"));
