@@ -300,6 +300,7 @@ RegionSuggestions suggest_for(const SampleIndex& index, const RecommendRequest& 
     const Turns turns(index, scorer);
     const auto suggestions = [&](const std::vector<Scored>& chosen) {
         std::vector<Suggestion> list;
+        list.reserve(chosen.size());
         for (const Scored& one : chosen)
             list.push_back(suggestion_of(index, scorer, *one.candidate, one.score));
         return list;
