@@ -1,6 +1,7 @@
+// The part of TextureShelf that accesses the texture library.
+
 #include <fmt/format.h>
 
-// The part of TextureShelf that accesses the texture library.
 #include "app/base/background.h"
 #include "app/textures/larger_original.h"
 #include "app/textures/texture_shelf.h"
@@ -91,6 +92,8 @@ std::vector<TextureSuggestion> ranked_for(TextureLibrary& library, const Surface
     std::vector<TextureSuggestion> out;
     if (!found || found->regions.empty()) return out;
     // What scores far below the best, or has nothing to say for it, is a guess and is not shown.
+    // What suits a less likely role scores lower: of the first five for the regions of
+    // bench/regions.json a limit of 0.6 hides 67 of 375, this one 5.
     constexpr float kGuess = 0.35f;
     float best = 0;
     for (const Suggestion& one : found->regions[0].suggestions)

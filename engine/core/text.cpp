@@ -93,7 +93,7 @@ std::string xml_text(std::string_view text) {
             out += "&gt;";
         else if (c == '"')
             out += "&quot;";
-        else
+        else if (static_cast<unsigned char>(c) >= 32 || c == '\t' || c == '\n')
             out += c;
     }
     return out;

@@ -29,7 +29,8 @@ namespace weft {
 /// Are both the same but for A to Z and a to z?
 [[nodiscard]] bool same_ignoring_case(std::string_view a, std::string_view b);
 
-/// The text as XML has it, in elements and in quotes.
+/// The text as XML has it, in elements and in quotes; without the control characters that XML does
+/// not allow.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
 /// The shortest decimal text that reads back as the same number.

@@ -86,7 +86,8 @@ struct LogShading {
 [[nodiscard]] Shading steady_shading(const Shading& current, const Shading& previous,
                                      ViewF2 prev_from_cur);
 
-/// S₀: the median inside the matte, measured on the reference frame.
+/// S₀: the median of what is lit inside the matte, measured on the reference frame; 0.00001 if
+/// nothing is.
 [[nodiscard]] float median_shading(const Shading& shading, ViewU8x1 visible);
 
 /// From an illumination picture E, stretched over `box` of a plate of `full` size (the paper).

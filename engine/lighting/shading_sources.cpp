@@ -94,14 +94,20 @@ Shading shading_from_albedo(ViewF3 linear_plate, ViewF3 albedo) {
 
 float median_shading(const Shading& shading, ViewU8x1 visible) {
     std::vector<float> values;
+    bool dark = false;
     for (int y = 0; y < shading.value.height(); ++y) {
         for (int x = 0; x < shading.value.width(); ++x) {
-            if (any_visible(visible, x * shading.downscale, y * shading.downscale,
-                            shading.downscale))
-                values.push_back(shading.value.row(y)[x]);
+            if (!any_visible(visible, x * shading.downscale, y * shading.downscale,
+                             shading.downscale))
+                continue;
+            const float light = shading.value.row(y)[x];
+            if (light > kDarkest)
+                values.push_back(light);
+            else
+                dark = true;
         }
     }
-    return median_of(values, 1.0f);
+    return median_of(values, dark ? kDarkest : 1.0f);
 }
 
 Shading shading_from_image(ViewF3 linear_picture, const Recti& box, Size full) {

@@ -14,6 +14,10 @@ TEST(Text, CaseIsThatOfAsciiLetters) {
     EXPECT_TRUE(same_ignoring_case("", ""));
 }
 
+TEST(Text, XmlHasNoMarkupAndNoControlCharacters) {
+    EXPECT_EQ(xml_text("a<b> & \"c\"\x01\t"), "a&lt;b&gt; &amp; &quot;c&quot;\t");
+}
+
 TEST(Text, ASizeIsWidthByHeight) {
     EXPECT_EQ(size_text({1920, 1080}), "1920x1080");
     EXPECT_EQ(size_text({}), "0x0");

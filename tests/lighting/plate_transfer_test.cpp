@@ -103,6 +103,9 @@ TEST(PlateTransfer, APassIsBlackWhereNoLightFalls) {
     const Shading s = shading_from_lighting(lighting, plate);
     EXPECT_LT(s.value.at(2, 2), 1e-3f);
     EXPECT_NEAR(s.value.at(6, 6), 0.3f, 1e-4f);
+    Shading most_in_shadow{ImageF1(8, 8, 1e-5f), 1, {8, 8}};
+    std::fill_n(most_in_shadow.value.row(3), 8, 0.4f);
+    EXPECT_EQ(median_shading(most_in_shadow, Matte(8, 8, 255)), 0.4f) << "of what is lit";
     const ImageF3 albedo(8, 8, 0.2f);
     EXPECT_LT(shading_from_albedo(plate, albedo).value.at(2, 2), 1e-3f);
 }

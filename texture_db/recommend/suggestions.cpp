@@ -31,7 +31,7 @@ constexpr float kServed = 0.6f;      // of a role's wish for a place, by a mater
 constexpr float kAgain = 0.5f;       // of a material's chance of a place, for each that it has
 constexpr float kLikely = 0.5f;      // from here on the role is named
 constexpr float kGrowsWell = 0.55f;  // synthesis above this is good enough
-constexpr std::size_t kKeep = 0, kContrast = 3, kOther = 4;
+constexpr std::size_t kLikeNow = 0, kContrast = 3, kOther = 4;
 
 float score_of(const ScoredSample& c, const Weights& w) {
     const ScoreTerms& p = c.parts;
@@ -308,7 +308,7 @@ RegionSuggestions suggest_for(const SampleIndex& index, const RecommendRequest& 
     std::vector<Pool> pools;
     for (std::size_t s = 0; s < std::size(kSchemes); ++s) {
         pools.emplace_back(best_of(index, scorer, candidates, s), scorer);
-        const bool mixed = s != kKeep && diversity > 0;
+        const bool mixed = s != kLikeNow && diversity > 0;
         auto list = suggestions(diverse(pools.back(), request.count, diversity,
                                         mixed ? std::optional(turns) : std::nullopt));
         if (!list.empty())

@@ -231,34 +231,33 @@ void count_facets(const std::vector<Scored>& hits, const SampleIndex& index, Sea
     out.origins = ordered(counts, origins);
 }
 
-// Why a sample matches a term; empty if it does not.
-std::string reason_of(const TermHits& hits, const SampleIndex& index, const IndexedSample& s) {
-    if (hits.term.negated) return "not " + hits.term.word;
-    const std::string& material = index.materials.text(s.material);
-    if (hits.by_material[static_cast<std::size_t>(s.material)] > kLeast)
-        return "material " + material +
-               (hits.term.word == material ? "" : " (" + hits.term.typed + ")");
-    if (hits.look(s.measured) > kLeast) return "looks " + hits.term.word;
-    if (std::binary_search(hits.keys.begin(), hits.keys.end(), s.key))
-        return "named '" + hits.term.text + "'";
-    return {};
-}
-
 std::vector<std::string> reasons_of(const std::vector<TermHits>& terms, const SampleIndex& index,
                                     const IndexedSample& s) {
     std::vector<std::string> out;
-    for (const TermHits& hits : terms)
-        if (std::string reason = reason_of(hits, index, s); !reason.empty())
-            out.push_back(std::move(reason));
+    for (const TermHits& hits : terms) {
+        if (hits.term.negated) {
+            out.push_back("not " + hits.term.word);
+            continue;
+        }
+        const std::string& material = index.materials.text(s.material);
+        const float look = hits.look(s.measured);
+        if (hits.by_material[static_cast<std::size_t>(s.material)] > kLeast) {
+            out.push_back("material " + material +
+                          (hits.term.word == material ? "" : " (" + hits.term.typed + ")"));
+        } else if (look > kLeast) {
+            out.push_back("looks " + hits.term.word);
+        } else if (std::binary_search(hits.keys.begin(), hits.keys.end(), s.key)) {
+            out.push_back("named '" + hits.term.text + "'");
+        }
+    }
     return out;
 }
 
 // The words of a query that a sample does not match.
-std::vector<std::string> words_missed(const std::vector<TermHits>& terms, const SampleIndex& index,
-                                      const IndexedSample& s) {
+std::vector<std::string> words_missed(const std::vector<TermHits>& terms, const IndexedSample& s) {
     std::vector<std::string> out;
     for (const TermHits& hits : terms)
-        if (reason_of(hits, index, s).empty()) out.push_back(hits.term.typed);
+        if (!(term_score(hits, s) > kLeast)) out.push_back(hits.term.typed);
     return out;
 }
 
@@ -330,8 +329,7 @@ Expected<SearchResult> search_index(Database& database, const SampleIndex& index
         const auto best =
             std::max_element(hits.begin(), hits.end(),
                              [](const Scored& a, const Scored& b) { return a.score < b.score; });
-        if (best != hits.end())
-            out.missing = words_missed(terms, index, index.samples[best->sample]);
+        if (best != hits.end()) out.missing = words_missed(terms, index.samples[best->sample]);
     }
     out.total = static_cast<int>(hits.size());
     if (query.facets) count_facets(hits, index, out);
