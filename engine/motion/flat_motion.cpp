@@ -54,12 +54,20 @@ Vec2 centre(int x, int y) {
     return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
 }
 
-LatticeField field_of_plane(const glm::dmat3& plane, Size size, int spacing_px) {
+// The plane that explains most of the pairs.
+LatticeField field_of_plane(const std::vector<PlacePair>& pairs, Size size, int spacing_px) {
+    const glm::dmat3 plane = fit_trimmed(pairs);
+    std::vector<double> depths;
+    depths.reserve(pairs.size());
+    for (const PlacePair& pair : pairs)
+        depths.push_back((plane * glm::dvec3(pair.from, 1)).z);
+    const double nearest = nearest_depth(std::move(depths));
     LatticeField out(size, spacing_px);
     for (int j = 0; j < out.nodes().height(); ++j) {
         for (int i = 0; i < out.nodes().width(); ++i) {
             const Vec2 p = out.node_position(i, j);
-            out.set_node(i, j, mapped(plane, p) - p);
+            const glm::dvec3 q = plane * glm::dvec3(p, 1);
+            out.set_node(i, j, Vec2(glm::dvec2(q) / std::max(q.z, nearest)) - p);
         }
     }
     return out;
@@ -74,7 +82,7 @@ LatticeField fit_flat_motion(ViewF2 flow, ViewU8x1 weights, int spacing_px) {
         const float* d = flow.pixel(x, y);
         pairs.push_back({p, p + Vec2(d[0], d[1])});
     });
-    return field_of_plane(fit_trimmed(std::move(pairs)), flow.size(), spacing_px);
+    return field_of_plane(pairs, flow.size(), spacing_px);
 }
 
 LatticeField flattened(const LatticeField& field, ViewU8x1 visible) {
@@ -84,7 +92,7 @@ LatticeField flattened(const LatticeField& field, ViewU8x1 visible) {
         const Vec2 p = centre(x, y);
         pairs.push_back({p, p + field.at(p)});
     });
-    return field_of_plane(fit_trimmed(std::move(pairs)), field.full_size(), field.spacing());
+    return field_of_plane(pairs, field.full_size(), field.spacing());
 }
 
 }  // namespace weft

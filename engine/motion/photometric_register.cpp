@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "engine/core/parallel.h"
 #include "engine/motion/photometric_samples.h"
+#include "engine/motion/plane_fit.h"
 
 namespace weft {
 namespace {
@@ -51,11 +53,13 @@ struct Homography {
         double x, y;             // frame coordinates
         double u, v, nx, ny, w;  // local coordinates in, local out, denominator
     };
-    [[nodiscard]] At at(double x, double y) const {
+    // The denominator is at least `nearest`.
+    [[nodiscard]] At at(double x, double y,
+                        double nearest = std::numeric_limits<double>::lowest()) const {
         At a{};
         a.u = (x - cx) / radius;
         a.v = (y - cy) / radius;
-        a.w = h[6] * a.u + h[7] * a.v + 1;
+        a.w = std::max(nearest, h[6] * a.u + h[7] * a.v + 1);
         a.nx = (h[0] * a.u + h[1] * a.v + h[2]) / a.w;
         a.ny = (h[3] * a.u + h[4] * a.v + h[5]) / a.w;
         a.x = cx + radius * a.nx;
@@ -103,17 +107,20 @@ bool start_from(const LatticeField& field, const RegistrationSamples& samples, H
     return true;
 }
 
-LatticeField field_of(const Homography& map, const LatticeField& like) {
+// `samples`: what the map was fitted to.
+LatticeField field_of(const Homography& map, const RegistrationSamples& samples,
+                      const LatticeField& like) {
+    constexpr std::size_t kEvery = 31;
+    std::vector<double> depths;
+    for (std::size_t k = 0; k < samples.size(); k += kEvery)
+        depths.push_back(map.at(samples.p[k].x, samples.p[k].y).w);
+    const double nearest = nearest_depth(std::move(depths));
     LatticeField out(like.full_size(), like.spacing());
     for (int j = 0; j < out.nodes().height(); ++j) {
         for (int i = 0; i < out.nodes().width(); ++i) {
             const Vec2 p = out.node_position(i, j);
-            const auto a = map.at(p.x, p.y);
-            // Beyond the horizon there is no surface.
-            const bool sane = a.w > 0.05;
-            out.set_node(i, j,
-                         sane ? Vec2(static_cast<float>(a.x) - p.x, static_cast<float>(a.y) - p.y)
-                              : like.node(i, j));
+            const auto a = map.at(p.x, p.y, nearest);
+            out.set_node(i, j, Vec2(static_cast<float>(a.x) - p.x, static_cast<float>(a.y) - p.y));
         }
     }
     return out;
@@ -271,7 +278,7 @@ PlanarRegistration register_planar(const RegistrationPicture& anchor,
         moved = planar_step(anchor, samples, noise, false, map);
         if (moved < 0 || moved > 50) return out;
     }
-    out.anchor_from_cur = field_of(map, initial);
+    out.anchor_from_cur = field_of(map, samples, initial);
     out.fit = registration_fit(anchor, cur, out.anchor_from_cur, options);
     out.found = true;
     return out;
@@ -296,7 +303,7 @@ LatticeField refine_planar(const RegistrationPicture& anchor, const Registration
         moved = planar_step(anchor, more, noise, true, map);
         if (moved < 0 || moved > kFarthest_px) return found;
     }
-    return field_of(map, found);
+    return field_of(map, samples, found);
 }
 
 }  // namespace weft

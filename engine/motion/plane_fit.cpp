@@ -140,6 +140,13 @@ Vec2 moved_by(const glm::dmat3& plane, Vec2 p) {
     return Vec2(glm::dvec2(q) / q.z - glm::dvec2(p));
 }
 
+double nearest_depth(std::vector<double> depths) {
+    constexpr double kOfLeast = 0.5, kOfMedian = 0.05;
+    if (depths.empty()) return 1;
+    const double least = *std::min_element(depths.begin(), depths.end());
+    return std::max(kOfLeast * least, kOfMedian * median_of(std::move(depths)));
+}
+
 glm::dmat3 fit_plane(const std::vector<PlacePair>& pairs, const PlaneFitOptions& options) {
     // (0.005 / 0.3)²: noise of the places against how much a plane's perspective varies.
     constexpr double kTowardsAffine = 3e-4, kTowardsNone = 1e-6;

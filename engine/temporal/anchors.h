@@ -60,11 +60,11 @@ class AnchorSet {
     /// How the present anchor's frame moves, found later.
     void set_motion(LatticeField motion) { anchors_[present_].motion = std::move(motion); }
     void use(std::size_t index) { present_ = index; }
-    /// Replaces each anchor's frame by what `changed` makes of the anchor.
+    /// Calls change(anchor) for each.
     template <class Change>
-    void change_frames(const Change& changed) {
+    void each(const Change& change) {
         for (Anchor& anchor : anchors_)
-            anchor.frame = changed(std::as_const(anchor));
+            change(anchor);
     }
     /// Drops all anchors, because their mapping to the reference frame is no longer valid.
     void clear() { anchors_.clear(); }

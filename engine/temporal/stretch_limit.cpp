@@ -114,6 +114,18 @@ Similarity fit(const LatticeField& field, const ImageF1& weight, ScaleRange rang
     return out;
 }
 
+constexpr ScaleRange kAnyScale{2.0f / 3, 1.5f};  // of one that nobody has asked for
+
+// That of what is seen.
+Similarity similarity_of(const LatticeField& field, ViewU8x1 visible) {
+    ImageF1 weight(field.nodes().size());
+    for (int j = 0; j < weight.height(); ++j) {
+        for (int i = 0; i < weight.width(); ++i)
+            weight.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
+    }
+    return fit(field, weight, kAnyScale);
+}
+
 // 1 within `reach` nodes of the marks, falling smoothly to 0 at twice that distance.
 ImageF1 spread(const ImageF1& marks, int reach) {
     ImageF1 out(marks.size());
@@ -131,6 +143,22 @@ ImageF1 spread(const ImageF1& marks, int reach) {
             }
             out.at(i, j) = 1 - smooth_step(nearest / static_cast<float>(reach), 1.0f, 2.0f);
         }
+    }
+    return out;
+}
+
+// 0 at what is seen and what a few frames may bring into view, rising to 1 farther off.
+ImageF1 out_of_sight(const LatticeField& field, ViewU8x1 visible) {
+    constexpr int kMargin = 3;  // nodes
+    ImageF1 seen(field.nodes().size());
+    for (int j = 0; j < seen.height(); ++j) {
+        for (int i = 0; i < seen.width(); ++i)
+            seen.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
+    }
+    ImageF1 out = spread(seen, kMargin);
+    for (int j = 0; j < seen.height(); ++j) {
+        for (int i = 0; i < seen.width(); ++i)
+            out.at(i, j) = 1 - out.at(i, j);
     }
     return out;
 }
@@ -225,14 +253,15 @@ std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 
     }
     if (seen == 0 || static_cast<float>(past) < kMuch * static_cast<float>(seen)) return {};
     const Similarity target = fit(field, weight, {whole / kScaledAfter, whole * kScaledAfter});
+    const ImageF1 hidden = out_of_sight(field, visible);
     for (int reach = 4; reach <= 64; reach *= 2) {
         const ImageF1 pull = reach < 64 ? spread(excess, reach) : ImageF1(size, 1.0f);
         LatticeField out = field;
         for (int j = 0; j < size.height; ++j) {
             for (int i = 0; i < size.width; ++i) {
                 const Vec2 p = field.node_position(i, j);
-                out.set_node(i, j,
-                             field.node(i, j) + pull.at(i, j) * (target(p) - landing(field, i, j)));
+                const float pulled = std::max(pull.at(i, j), hidden.at(i, j));
+                out.set_node(i, j, field.node(i, j) + pulled * (target(p) - landing(field, i, j)));
             }
         }
         float most = 0;
@@ -248,17 +277,34 @@ std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 
 }
 
 LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible) {
-    ImageF1 weight(field.nodes().size());
-    for (int j = 0; j < weight.height(); ++j) {
-        for (int i = 0; i < weight.width(); ++i)
-            weight.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
-    }
-    const Similarity target = fit(field, weight, {2.0f / 3, 1.5f});
+    const Similarity target = similarity_of(field, visible);
     LatticeField out(field.full_size(), field.spacing());
-    for (int j = 0; j < weight.height(); ++j) {
-        for (int i = 0; i < weight.width(); ++i) {
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i) {
             const Vec2 p = out.node_position(i, j);
             out.set_node(i, j, target(p) - p);
+        }
+    }
+    return out;
+}
+
+LatticeField tame_out_of_sight(const LatticeField& field, ViewU8x1 visible) {
+    const float whole = whole_scale(field, visible, kAnyScale);
+    const ImageF1 hidden = out_of_sight(field, visible);
+    float most = 0;
+    for (int j = 1; j + 1 < hidden.height(); ++j) {
+        for (int i = 1; i + 1 < hidden.width(); ++i) {
+            if (hidden.at(i, j) > 0)
+                most = std::max(most, stretch_of(shape_at(field, i, j), whole));
+        }
+    }
+    if (most <= 1) return field;
+    const Similarity target = similarity_of(field, visible);
+    LatticeField out = field;
+    for (int j = 0; j < hidden.height(); ++j) {
+        for (int i = 0; i < hidden.width(); ++i) {
+            const Vec2 to = target(field.node_position(i, j));
+            out.set_node(i, j, field.node(i, j) + hidden.at(i, j) * (to - landing(field, i, j)));
         }
     }
     return out;

@@ -25,12 +25,18 @@ inline constexpr int kReanchorFrames = 16;
 
 /// A field without excessive stretch, if a fifth of the surface or more is past that limit. It
 /// blends into the given field where that one is not stretched, as smoothly as the limit requires,
-/// and is at most the similarity everywhere. Empty if less of the surface is past the limit. Pure.
+/// and is at most the similarity everywhere, as it is out of sight. Empty if less of the surface is
+/// past the limit. Pure.
 [[nodiscard]] std::optional<LatticeField> relaxed_stretch(const LatticeField& ref_from_cur,
                                                           ViewU8x1 visible, ScaleRange range = {});
 
 /// The similarity (rotation, scale of 2/3 to 3/2, translation) that fits a field best over
 /// `visible`, defined everywhere. Pure.
 [[nodiscard]] LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible);
+
+/// The field as it is where it is seen or nearly so; where it is past the limits above farther off,
+/// as that similarity everywhere out of sight. A homography is past them beyond its horizon, and a
+/// smooth field that goes on from it would be drawn along. Pure.
+[[nodiscard]] LatticeField tame_out_of_sight(const LatticeField& field, ViewU8x1 visible);
 
 }  // namespace weft

@@ -75,6 +75,7 @@ std::optional<RegistrationFit> SurfaceWalker::State::lay_as_plane(const StepFram
     const LatticeField expected = flattened(anchor_from_cur, visible);
     const auto laid = plane.registered(anchors.present(), cur, choice.by_color(), expected, found,
                                        options.quality);
+    if (!plane.believed()) leave_plane(cur);
     if (!laid) return std::nullopt;
     lay(expected, laid->anchor_from_cur, visible);
     return laid->fit;
@@ -92,6 +93,16 @@ std::optional<RegistrationFit> SurfaceWalker::State::lay_as_settled_plane(const 
     note_step(cur);
     lay(expected, laid->anchor_from_cur, visible);
     return laid->fit;
+}
+
+// Where a plane was seen it was right; beyond its horizon it never was.
+void SurfaceWalker::State::leave_plane(const StepFrame& cur) {
+    plane.refute();
+    anchors.each([](Anchor& anchor) {
+        anchor.ref_from_anchor =
+            tame_out_of_sight(anchor.ref_from_anchor, anchor.frame->view().visible);
+    });
+    correct(anchors.present_index(), tame_out_of_sight(anchor_from_cur, cur.view().visible));
 }
 
 void SurfaceWalker::State::lay(const LatticeField& expected, const LatticeField& registered,
@@ -261,8 +272,8 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
     if (step.by_outline && !s.plane.is_said()) {
         if (s.plane.is_settled())
             step = {evidence.by_picture};
-        else
-            s.plane.refute();
+        else if (s.plane.believed())
+            s.leave_plane(*s.last);
     }
     s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
     if (step.by_outline) {
@@ -311,7 +322,7 @@ void SurfaceWalker::become_part() {
 void SurfaceWalker::keep_on_anchors(ViewU8x1 own) {
     State& s = *state_;
     const Size size = s.frame_size();
-    s.anchors.change_frames([&](const Anchor& anchor) {
+    s.anchors.each([&](Anchor& anchor) {
         const ImageF2 to_last = inverse(s.predicted(anchor)).dense(rect_of(size));
         const ViewU8x1 visible = anchor.frame->view().visible;
         Matte kept(size);
@@ -325,7 +336,7 @@ void SurfaceWalker::keep_on_anchors(ViewU8x1 own) {
                 kept.at(x, y) = own.at(u, v) != 0 ? visible.at(x, y) : std::uint8_t{0};
             }
         }
-        return anchor.frame->part(kept, anchor.frame.get());
+        anchor.frame = anchor.frame->part(kept, anchor.frame.get());
     });
 }
 

@@ -118,6 +118,7 @@ struct SurfaceWalker::State {
     void note_step(const StepFrame& cur);
     std::optional<RegistrationFit> lay_as_plane(const StepFrame& cur, const Registered& found);
     std::optional<RegistrationFit> lay_as_settled_plane(const StepFrame& cur);
+    void leave_plane(const StepFrame& cur);
     void lay(const LatticeField& expected, const LatticeField& registered, ViewU8x1 visible);
     void register_frame(const std::shared_ptr<const StepFrame>& cur);
     void register_drawing(const StepFrame& cur);

@@ -35,5 +35,32 @@ TEST(FlatMotion, IsNoneWhereNothingIsKnown) {
     EXPECT_EQ(found.nodes(), LatticeField(kLeaningFrame, 8).nodes());
 }
 
+// A floor whose horizon crosses the frame above what is seen of it.
+TEST(Flattened, StaysTameBeyondItsHorizon) {
+    const auto on_floor = [](Vec2 p) {
+        const float depth = 0.02f * (p.y - 40);
+        return Vec2(80 + (p.x - 80) / depth, 40 + 100 / depth);
+    };
+    Matte seen(kLeaningFrame);
+    LatticeField floor(kLeaningFrame, 8);
+    for (int y = 70; y < kLeaningFrame.height; ++y) {
+        for (int x = 0; x < kLeaningFrame.width; ++x)
+            seen.at(x, y) = 255;
+    }
+    for (int j = 0; j < floor.nodes().height(); ++j) {
+        for (int i = 0; i < floor.nodes().width(); ++i) {
+            const Vec2 p = floor.node_position(i, j);
+            if (p.y > 48) floor.set_node(i, j, on_floor(p) - p);
+        }
+    }
+    const LatticeField found = flattened(floor, seen);
+    for (const Vec2 p : {Vec2(20, 80), Vec2(80, 100), Vec2(150, 90)})
+        EXPECT_LT(distance(p + found.at(p), on_floor(p)), 0.5f) << p.x << " " << p.y;
+    for (int j = 0; j < found.nodes().height(); ++j) {
+        for (int i = 0; i < found.nodes().width(); ++i)
+            EXPECT_LT(glm::length(found.node(i, j)), 1000) << i << " " << j;
+    }
+}
+
 }  // namespace
 }  // namespace weft

@@ -103,5 +103,28 @@ TEST(RelaxedStretch, NothingIsPastTheLimitAfterwards) {
     EXPECT_FALSE(limit_stretch(again, visible));
 }
 
+// Seen on the left, beside the horizon of a plane.
+TEST(TameOutOfSight, KeepsWhatIsSeenAndBoundsTheRest) {
+    LatticeField field({256, 128}, 8);
+    for (int j = 0; j < field.nodes().height(); ++j) {
+        for (int i = 0; i < field.nodes().width(); ++i) {
+            const Vec2 p = field.node_position(i, j);
+            field.set_node(i, j, p / (1 - p.x / 202) - p);
+        }
+    }
+    Matte seen(256, 128);
+    for (int y = 0; y < 128; ++y) {
+        for (int x = 0; x < 100; ++x)
+            seen.at(x, y) = 255;
+    }
+    ASSERT_GT(glm::length(field.at({204, 64})), 5000);
+    const LatticeField tame = tame_out_of_sight(field, seen);
+    for (const Vec2 p : {Vec2(10, 10), Vec2(60, 64), Vec2(99, 120)})
+        EXPECT_EQ(tame.at(p), field.at(p)) << p.x << " " << p.y;
+    for (const Vec2 p : {Vec2(180, 10), Vec2(204, 64), Vec2(250, 120)})
+        EXPECT_LT(glm::length(tame.at(p)), 256) << p.x << " " << p.y;
+    EXPECT_EQ(tame_out_of_sight(squeezed(0.5f), seen).nodes(), squeezed(0.5f).nodes());
+}
+
 }  // namespace
 }  // namespace weft
