@@ -172,8 +172,9 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     s.take_whole_fills(frame, phi, matte);
     s.take_as_scene(frame, prev_from_cur, covered, phi, matte);
     const Matte parting = parting_pixels(measured, rect_of(frame.size()));
-    s.take_ground({frame, measured, parting, surface_motion, area, s.phi, phi, s.scale.unit_px()},
-                  phi, matte);
+    s.take_ground(
+        {frame, s.frame, measured, parting, surface_motion, area, s.phi, phi, s.scale.unit_px()},
+        phi, matte);
     if (s.followed) s.followed->advance({measured, parting, surface_motion, area, s.phi, phi});
     s.phi = std::move(phi);
     s.seen = covered.empty() ? ImageF1() : seen_distance(s.phi, covered);

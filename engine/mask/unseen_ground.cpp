@@ -15,6 +15,7 @@
 #include "engine/core/median.h"
 #include "engine/core/parallel.h"
 #include "engine/mask/matte_box.h"
+#include "engine/mask/motion_support.h"
 #include "engine/mask/nearest_pixel.h"
 #include "engine/mask/scene_pieces.h"
 
@@ -22,15 +23,40 @@ namespace weft {
 namespace {
 
 constexpr std::uint8_t kKnown = 255;
-constexpr std::uint8_t kRipe = 6, kMostWaited = 12;  // frames
+constexpr std::uint8_t kRipe = 4, kMostWaited = 12;  // frames
 constexpr int kAcross_px = 2;                        // from an edge
 constexpr float kWith_px = 1;                        // of the surface's motion, per frame
 
+// What is plain goes along with anything, as what was just uncovered does, whose own motion nobody
+// knows yet.
 bool goes_along(const GroundStep& step, int x, int y) {
+    constexpr float kDoubt = 0.5f;
     if (!step.area.contains(x, y)) return false;
-    const float* own = step.flow.d.pixel(x, y);
-    const float* surface = step.surface_motion.pixel(x - step.area.x0, y - step.area.y0);
-    return glm::length(Vec2(own[0] - surface[0], own[1] - surface[1])) < kWith_px * step.unit_px;
+    const float* d = step.flow.d.pixel(x, y);
+    const float* s = step.surface_motion.pixel(x - step.area.x0, y - step.area.y0);
+    const Vec2 own(d[0], d[1]), surface(s[0], s[1]);
+    if (glm::length(own - surface) < kWith_px * step.unit_px) return true;
+    const FramePair pair{step.frame, step.prev_frame, rect_of(step.frame.size())};
+    return speaks_against(pair, {x, y}, surface, own) < kDoubt;
+}
+
+// The palette's log odds, means over the surroundings that are not known either: a sheet's fold or
+// stripe alone may be anybody's.
+cv::Mat odds_around(const GroundStep& step, const Matte& known, const SurfacePalette& palette) {
+    constexpr float kReach_px = 4;
+    cv::Mat sums(known.height(), known.width(), CV_32FC2, cv::Scalar::all(0));
+    parallel_rows(known.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            auto* sum = sums.ptr<cv::Vec2f>(y);
+            for (int x = 0; x < known.width(); ++x) {
+                if (step.phi.row(y)[x] <= 0 && known.at(x, y) == 0)
+                    sum[x] = {palette.odds(step.frame.pixel(x, y)), 1};
+            }
+        }
+    });
+    const int side = 2 * static_cast<int>(std::lround(kReach_px * step.unit_px)) + 1;
+    cv::boxFilter(sums, sums, -1, {side, side}, {-1, -1}, false, cv::BORDER_CONSTANT);
+    return sums;
 }
 
 // The step of the picture across the pixel, code values; none at the border.
@@ -102,20 +128,31 @@ UnseenGround::UnseenGround(ViewF1 key_phi) : known_(key_phi.size()), waited_(key
 void UnseenGround::follow(const GroundStep& step, const SurfacePalette& palette) {
     const Recti frame = rect_of(known_.size());
     Matte known(known_.size()), waited(known_.size());
+    const auto was_seen = [&](Vec2i at, Vec2i from) {
+        return step.parting.at(at.x, at.y) == 0 && frame.contains(from.x, from.y);
+    };
+    const auto source = [&](int x, int y) {
+        const float* d = step.flow.d.pixel(x, y);
+        return nearest_pixel({static_cast<float>(x) + d[0], static_cast<float>(y) + d[1]});
+    };
     parallel_rows(known.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < known.width(); ++x) {
                 if (step.phi.row(y)[x] > 0) continue;
-                const float* d = step.flow.d.pixel(x, y);
-                const Vec2i from =
-                    nearest_pixel({static_cast<float>(x) + d[0], static_cast<float>(y) + d[1]});
-                const bool was_seen = step.parting.at(x, y) == 0 && frame.contains(from.x, from.y);
-                if (was_seen && step.prev_phi.row(from.y)[from.x] <= 0)
+                const Vec2i from = source(x, y);
+                if (was_seen({x, y}, from) && step.prev_phi.row(from.y)[from.x] <= 0)
                     known.at(x, y) = known_.at(from.x, from.y);
-                if (known.at(x, y) != 0) continue;
-                const int so_far = was_seen ? waited_.at(from.x, from.y) : 0;
-                const bool is_like =
-                    goes_along(step, x, y) && palette.odds(step.frame.pixel(x, y)) > 0;
+            }
+        }
+    });
+    const cv::Mat odds = odds_around(step, known, palette);
+    parallel_rows(known.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < known.width(); ++x) {
+                if (step.phi.row(y)[x] > 0 || known.at(x, y) != 0) continue;
+                const Vec2i from = source(x, y);
+                const int so_far = was_seen({x, y}, from) ? waited_.at(from.x, from.y) : 0;
+                const bool is_like = odds.at<cv::Vec2f>(y, x)[0] > 0 && goes_along(step, x, y);
                 waited.at(x, y) = static_cast<std::uint8_t>(
                     std::clamp(so_far + (is_like ? 1 : -2), 0, int{kMostWaited}));
             }

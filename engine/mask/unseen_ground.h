@@ -12,13 +12,13 @@ namespace weft {
 
 /// A step of the walk. Views have the frame's size but `surface_motion`, which has that of `area`.
 struct GroundStep {
-    ViewU8x3 frame;         ///< Display codes.
-    const FlowField& flow;  ///< prev_from_cur as measured.
-    const Matte& parting;   ///< parting_pixels() of it and the whole frame.
-    ViewF2 surface_motion;  ///< prev_from_cur of the surface, px.
-    Recti area;             ///< Where the surface may be; empty once it has left the frame.
-    ViewF1 prev_phi, phi;   ///< Signed distance of the matte on the frame before and on this one.
-    float unit_px = 1;      ///< A pixel of a frame 854 wide.
+    ViewU8x3 frame, prev_frame;  ///< Display codes.
+    const FlowField& flow;       ///< prev_from_cur as measured.
+    const Matte& parting;        ///< parting_pixels() of it and the whole frame.
+    ViewF2 surface_motion;       ///< prev_from_cur of the surface, px.
+    Recti area;                  ///< Where the surface may be; empty once it has left the frame.
+    ViewF1 prev_phi, phi;  ///< Signed distance of the matte on the frame before and on this one.
+    float unit_px = 1;     ///< A pixel of a frame 854 wide.
 };
 
 /// Of all that is outside it is known whether it was seen outside on the keyframe and ever since.
