@@ -29,50 +29,13 @@ struct Crop {
     cv::Mat colours, inside, outside, before;
     bool whole = false;    // it is the whole picture
     bool painted = false;  // the matte before is not empty
+    // What looks like the surface at the picture's border goes on there, as walls and floors do.
+    bool open = false;
 };
 
 // The longest side of a crop scaled to `px`, never enlarged.
 double scale_to(const Crop& crop, int px) {
     return std::min(1.0, static_cast<double>(px) / std::max(crop.colours.cols, crop.colours.rows));
-}
-
-// What is certain: the scribbles, and at the border of the crop what lies beyond it. `labels` has
-// the rest.
-void add_certain(const Crop& crop, cv::Mat& labels) {
-    cv::Mat inside, outside, before;
-    cv::resize(crop.inside, inside, labels.size(), 0, 0, cv::INTER_AREA);
-    cv::resize(crop.outside, outside, labels.size(), 0, 0, cv::INTER_AREA);
-    cv::resize(crop.before, before, labels.size(), 0, 0, cv::INTER_AREA);
-    // Without outside scribbles, an unpainted border counts as outside.
-    const bool closed = cv::countNonZero(outside > 127) == 0;
-    if (closed || (crop.painted && !crop.whole)) {
-        cv::Mat border(labels.size(), CV_8UC1, cv::Scalar(0));
-        cv::rectangle(border, cv::Rect(0, 0, labels.cols, labels.rows), cv::Scalar(255), kBorder);
-        labels.setTo(cv::GC_BGD, border);
-        if (!crop.whole) labels.setTo(cv::GC_FGD, border & (before > 127));
-    }
-    labels.setTo(cv::GC_BGD, outside > 127);
-    labels.setTo(cv::GC_FGD, inside > 127);
-}
-
-// What is inside and hangs together with something that certainly is: other places of the same
-// colours are not the surface.
-cv::Mat inside_of(const cv::Mat& labels) {
-    const cv::Mat all = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD);
-    cv::Mat pieces;
-    const int count = cv::connectedComponents(all, pieces);
-    std::vector<bool> certain(static_cast<std::size_t>(count), false);
-    for (int y = 0; y < labels.rows; ++y)
-        for (int x = 0; x < labels.cols; ++x)
-            if (labels.at<std::uint8_t>(y, x) == cv::GC_FGD)
-                certain[static_cast<std::size_t>(pieces.at<int>(y, x))] = true;
-    cv::Mat out(labels.size(), CV_8UC1, cv::Scalar(0));
-    for (int y = 0; y < labels.rows; ++y)
-        for (int x = 0; x < labels.cols; ++x)
-            if (all.at<std::uint8_t>(y, x) != 0 &&
-                certain[static_cast<std::size_t>(pieces.at<int>(y, x))])
-                out.at<std::uint8_t>(y, x) = 255;
-    return out;
 }
 
 // A few mean colours of the pixels in `where`; none where there are no such pixels.
@@ -101,6 +64,66 @@ double distance_to(const std::vector<cv::Vec3f>& centres, const cv::Vec3f& colou
     return least;
 }
 
+// Where the picture has other colours than under the lines inside: by more than these vary
+// themselves.
+cv::Mat foreign_to(const cv::Mat& colours, const cv::Mat& inside) {
+    constexpr double kLeast = 20, kTimes = 4;  // of 255; of the mean distance under the lines
+    const std::vector<cv::Vec3f> own = colours_of(colours, inside);
+    double sum = 0;
+    int count = 0;
+    cv::Mat distances(colours.size(), CV_32F), out;
+    for (int y = 0; y < colours.rows; ++y)
+        for (int x = 0; x < colours.cols; ++x) {
+            const double distance = distance_to(own, colours.at<cv::Vec3b>(y, x));
+            distances.at<float>(y, x) = static_cast<float>(distance);
+            if (inside.at<std::uint8_t>(y, x) == 0) continue;
+            sum += distance;
+            ++count;
+        }
+    out = distances > std::max(kLeast, kTimes * sum / std::max(1, count));
+    return out;
+}
+
+// What is certain: the scribbles, and at the border of the crop what lies beyond it. `labels` has
+// the rest.
+void add_certain(const Crop& crop, const cv::Mat& colours, cv::Mat& labels) {
+    cv::Mat inside, outside, before;
+    cv::resize(crop.inside, inside, labels.size(), 0, 0, cv::INTER_AREA);
+    cv::resize(crop.outside, outside, labels.size(), 0, 0, cv::INTER_AREA);
+    cv::resize(crop.before, before, labels.size(), 0, 0, cv::INTER_AREA);
+    // Without outside scribbles, an unpainted border counts as outside.
+    const bool closed = cv::countNonZero(outside > 127) == 0;
+    if (closed || (crop.painted && !crop.whole)) {
+        cv::Mat border(labels.size(), CV_8UC1, cv::Scalar(0));
+        cv::rectangle(border, cv::Rect(0, 0, labels.cols, labels.rows), cv::Scalar(255), kBorder);
+        if (crop.open) border &= foreign_to(colours, inside > 127);
+        labels.setTo(cv::GC_BGD, border);
+        if (!crop.whole) labels.setTo(cv::GC_FGD, border & (before > 127));
+    }
+    labels.setTo(cv::GC_BGD, outside > 127);
+    labels.setTo(cv::GC_FGD, inside > 127);
+}
+
+// What is inside and hangs together with something that certainly is: other places of the same
+// colours are not the surface.
+cv::Mat inside_of(const cv::Mat& labels) {
+    const cv::Mat all = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD);
+    cv::Mat pieces;
+    const int count = cv::connectedComponents(all, pieces);
+    std::vector<bool> certain(static_cast<std::size_t>(count), false);
+    for (int y = 0; y < labels.rows; ++y)
+        for (int x = 0; x < labels.cols; ++x)
+            if (labels.at<std::uint8_t>(y, x) == cv::GC_FGD)
+                certain[static_cast<std::size_t>(pieces.at<int>(y, x))] = true;
+    cv::Mat out(labels.size(), CV_8UC1, cv::Scalar(0));
+    for (int y = 0; y < labels.rows; ++y)
+        for (int x = 0; x < labels.cols; ++x)
+            if (all.at<std::uint8_t>(y, x) != 0 &&
+                certain[static_cast<std::size_t>(pieces.at<int>(y, x))])
+                out.at<std::uint8_t>(y, x) = 255;
+    return out;
+}
+
 // What is not certain is at first on the side whose colours are nearer (Li, Sun, Tang, Shum: Lazy
 // Snapping, 2004). Were all of it outside, the models would take a large surface for its ground.
 void guess_the_rest(const cv::Mat& colours, cv::Mat& labels) {
@@ -121,7 +144,7 @@ void guess_the_rest(const cv::Mat& colours, cv::Mat& labels) {
 cv::Mat coarse_cut(const Crop& crop, cv::Mat& background, cv::Mat& foreground) {
     const cv::Mat colours = scaled(crop.colours, scale_to(crop, kCoarsePx));
     cv::Mat labels(colours.size(), CV_8UC1, cv::Scalar(cv::GC_PR_BGD));
-    add_certain(crop, labels);
+    add_certain(crop, colours, labels);
     guess_the_rest(colours, labels);
     cv::grabCut(colours, labels, {}, background, foreground, 3, cv::GC_INIT_WITH_MASK);
     return inside_of(labels);
@@ -143,11 +166,25 @@ cv::Mat fine_cut(const Crop& crop, const cv::Mat& coarse, cv::Mat& background,
     labels.setTo(cv::GC_PR_FGD, found);
     labels.setTo(cv::GC_FGD, inner);
     labels.setTo(cv::GC_BGD, outer == 0);
-    add_certain(crop, labels);
+    add_certain(crop, colours, labels);
     const int inside = cv::countNonZero(inside_of(labels));
     if (inside == 0 || inside == static_cast<int>(labels.total())) return found;
     cv::grabCut(colours, labels, {}, background, foreground, 1, cv::GC_EVAL);
     return inside_of(labels);
+}
+
+// The picture's border ends nothing: what was taken for outside there goes on as what lies next to
+// it. `box`: of the crop that was cut, in the picture.
+cv::Mat continued_to_border(const cv::Mat& found, const cv::Rect& box, cv::Size picture) {
+    const int left = box.x == 0 ? kBorder : 0, top = box.y == 0 ? kBorder : 0;
+    const int right = box.br().x == picture.width ? kBorder : 0;
+    const int bottom = box.br().y == picture.height ? kBorder : 0;
+    const cv::Rect inner(left, top, found.cols - left - right, found.rows - top - bottom);
+    cv::Mat out;
+    // Isolated: what lies beside the part in its own matrix must not be taken instead.
+    cv::copyMakeBorder(found(inner), out, top, bottom, left, right,
+                       cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+    return out;
 }
 
 // Whether it goes on beyond the crop, as far as one can tell: its outermost pixels may be certain.
@@ -219,6 +256,30 @@ cv::Rect box_around(const cv::Mat& marks) {
     return box & cv::Rect({}, marks.size());
 }
 
+struct Cut {
+    cv::Mat coarse, fine;
+    bool is_enclosed = false;    // by edges of the picture
+    bool is_lines_only = false;  // nothing beside the lines inside was found
+};
+
+Cut cut_out(const Crop& crop, const cv::Rect& box, cv::Size picture) {
+    constexpr double kEnclosed = 0.75;
+    Cut out;
+    cv::Mat background, foreground;
+    // grabCut's k-means is random: a fixed seed gives equal mattes for equal scribbles
+    cv::setRNGSeed(1);
+    out.coarse = coarse_cut(crop, background, foreground);
+    out.fine =
+        continued_to_border(fine_cut(crop, out.coarse, background, foreground), box, picture);
+    out.is_enclosed =
+        share_on_edges(out.fine, scaled(crop.colours, scale_to(crop, kFinePx))) >= kEnclosed;
+    cv::Mat lines;
+    cv::resize(crop.inside, lines, out.coarse.size(), 0, 0, cv::INTER_AREA);
+    constexpr double kLittle = 1.25;
+    out.is_lines_only = cv::countNonZero(out.coarse) <= kLittle * cv::countNonZero(lines > 127);
+    return out;
+}
+
 }  // namespace
 
 Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
@@ -230,30 +291,28 @@ Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep
     const cv::Rect everything(0, 0, before.width(), before.height());
     cv::Rect box = box_around(cv::max(as_mat(keep), as_mat(drop)));
     const bool painted = cv::countNonZero(as_mat(before) > 127) > 0;
-    cv::Mat coarse, background, foreground;
-    Crop crop;
-    const auto cut = [&] {
-        crop = {all(box),          as_mat(keep)(box),
-                as_mat(drop)(box), as_mat(before)(box),
-                box == everything, painted};
-        // grabCut's k-means is random: a fixed seed gives equal mattes for equal scribbles
-        cv::setRNGSeed(1);
-        coarse = coarse_cut(crop, background, foreground);
+    const auto crop_of = [&](bool open) {
+        return Crop{all(box),
+                    as_mat(keep)(box),
+                    as_mat(drop)(box),
+                    as_mat(before)(box),
+                    box == everything,
+                    painted,
+                    open};
     };
-    cut();
-    if (!painted && !crop.whole && reaches_border(coarse)) {
+    Cut cut = cut_out(crop_of(false), box, everything.size());
+    if (!painted && box != everything && (reaches_border(cut.coarse) || cut.is_lines_only)) {
         box = everything;
-        cut();
+        cut = cut_out(crop_of(false), box, everything.size());
     }
-    const cv::Mat fine = fine_cut(crop, coarse, background, foreground);
-    cv::Mat full;
-    cv::resize(fine, full, box.size(), 0, 0, cv::INTER_CUBIC);
-    full = with_edge(crop.colours, full);
+    // All of a plain surface that ends at the picture's border counts as outside.
+    if (!painted && cut.is_lines_only) cut = cut_out(crop_of(true), box, everything.size());
     // Without a line outside only the picture can say how far the surface goes: by its edges.
-    constexpr double kEnclosed = 0.75;
-    const bool told =
-        cv::countNonZero(crop.outside > 127) > 0 ||
-        share_on_edges(fine, scaled(crop.colours, scale_to(crop, kFinePx))) >= kEnclosed;
+    const bool told = cv::countNonZero(as_mat(drop)(box) > 127) > 0 || cut.is_enclosed;
+    const Crop crop = crop_of(false);
+    cv::Mat full;
+    cv::resize(cut.fine, full, box.size(), 0, 0, cv::INTER_CUBIC);
+    full = with_edge(crop.colours, full);
     if (!told) {
         const cv::Mat near = within_reach(crop.inside);
         cv::min(full, near, full);

@@ -12,11 +12,11 @@ constexpr Size kPlate{400, 300};
 constexpr Recti kSurface{60, 20, 340, 280};
 
 // Both grained, so that colours have a spread.
-ImageU8x3 plate() {
+ImageU8x3 plate(const Recti& surface = kSurface) {
     ImageU8x3 out(kPlate, 0);
     for (int y = 0; y < kPlate.height; ++y)
         for (int x = 0; x < kPlate.width; ++x) {
-            const bool inside = kSurface.contains(x, y);
+            const bool inside = surface.contains(x, y);
             const auto grain = static_cast<std::uint8_t>((x * 7 + y * 13) % 11);
             std::uint8_t* p = out.pixel(x, y);
             p[0] = static_cast<std::uint8_t>((inside ? 180 : 40) + grain);
@@ -63,6 +63,18 @@ TEST(ScribbleMatte, LinesOutsideTakeAway) {
     const Matte found = segment_scribbles(filled({10, 10, 390, 290}), plate(), keep, drop);
     EXPECT_LT(found.at(40, 150), 128);
     EXPECT_GT(found.at(80, 150), 127);
+}
+
+// A shirt that fills the picture's top: no strip of it is left.
+TEST(ScribbleMatte, GoesOnToThePicturesBorder) {
+    constexpr Recti kCut{150, 0, 220, 240};
+    const Matte keep = filled({180, 100, 200, 106});
+    const Matte found = segment_scribbles(Matte(kPlate), plate(kCut), keep, Matte(kPlate));
+    for (int k = 160; k < 215; ++k) {
+        EXPECT_GT(found.at(k, 0), 127) << k;
+        EXPECT_LT(found.at(k, kPlate.height - 1), 128) << k;
+    }
+    EXPECT_LT(percent_wrong(found, filled(kCut)), 1);
 }
 
 // A curtain that gets darker from left to right has no edge at which a surface could end.

@@ -134,7 +134,7 @@ void tooltip(Ctx& c, const char* text, const char* command) {
     if (text && *text) ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
     if (!key.empty()) {
-        if (text && *text) ImGui::SameLine();
+        if (text && *text) ImGui::SameLine(0, c.theme.px(10));
         ImGui::PushStyleColor(ImGuiCol_Text, c.theme.quiet);
         ImGui::TextUnformatted(key.c_str());
         ImGui::PopStyleColor();
