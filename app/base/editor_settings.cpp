@@ -29,6 +29,26 @@ void take(const Json& json, const char* key, T& into) {
     }
 }
 
+// [in, out], null where an end is not set.
+Json marked_json(const std::map<std::string, MarkedRange>& marked) {
+    const auto end_of = [](std::optional<int> frame) { return frame ? Json(*frame) : Json(); };
+    Json out = Json::object();
+    for (const auto& [project, range] : marked)
+        out[project] = Json::array({end_of(range.in), end_of(range.out)});
+    return out;
+}
+
+void take_marked(const Json& json, std::map<std::string, MarkedRange>& into) {
+    if (!json.contains("marked") || !json.at("marked").is_object()) return;
+    for (const auto& [project, range] : json.at("marked").items()) {
+        if (!range.is_array() || range.size() != 2) continue;
+        const auto end_of = [&](std::size_t k) {
+            return range[k].is_number_integer() ? std::optional(range[k].get<int>()) : std::nullopt;
+        };
+        into[project] = {end_of(0), end_of(1)};
+    }
+}
+
 }  // namespace
 
 std::string editor_settings_path() {
@@ -51,6 +71,7 @@ EditorSettings load_editor_settings(const std::string& path) {
     take(json, "keys", out.keys);
     take(json, "sizes", out.sizes);
     take(json, "recent", out.recent);
+    take_marked(json, out.marked);
     take(json, "favourites", out.favourites);
     take(json, "recent_textures", out.recent_textures);
     take(json, "collections", out.collections);
@@ -73,6 +94,7 @@ Status save_editor_settings(const std::string& path, const EditorSettings& s) {
                     {"keys", s.keys},
                     {"sizes", s.sizes},
                     {"recent", s.recent},
+                    {"marked", marked_json(s.marked)},
                     {"favourites", s.favourites},
                     {"recent_textures", s.recent_textures},
                     {"collections", s.collections},

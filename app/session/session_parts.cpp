@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/project/codec/project_file.h"
+#include "app/session/document/recent_projects.h"
 #include "app/session/timeline_marks.h"
 
 namespace weft {
@@ -69,6 +70,8 @@ void Session::Parts::document_replaced() {
     textures_.forget();
     shown_mattes_.forget();
     playback_.reset();
+    const MarkedRange marked = marked_range(settings_, document_.path());
+    playback_.mark(marked.in, marked.out);
     selection_ = {};
     strip_.forget();
     measurement_.end();
@@ -136,6 +139,7 @@ void Session::Parts::advance(double now_s) {
         preview_desk_.ask();
         document_.touch();
     }
+    remember_marked_range(settings_, document_.path(), {playback_.mark_in(), playback_.mark_out()});
     notices_.set_time(now_s);
     opening_.find_more_recoverable(now_s);
     plate_.advance(now_s);

@@ -32,6 +32,7 @@ TEST_F(EditorFiles, SettingsRoundTrip) {
     settings.ui_scale = 1.5;
     settings.keys["play"] = "Space";
     settings.recent = {"/a/shot.weft"};
+    settings.marked["/a/shot.weft"] = {-3, std::nullopt};
     settings.collections["walls"] = {"db:1234"};
     ASSERT_TRUE(save_editor_settings(path, settings));
     EXPECT_EQ(load_editor_settings(path), settings);

@@ -144,6 +144,24 @@ TEST_F(SessionFiles, VersionsAreCounted) {
     EXPECT_EQ(view().path, in("shot_v004.weft"));
 }
 
+// The range was marked before the project had a file, and is marked again when that is opened.
+TEST_F(SessionFiles, AProjectsMarkedRangeIsRemembered) {
+    open();
+    act(MarkRange{2, std::nullopt});
+    save_as("shot.weft");
+    update();
+    save_as("other.weft");
+    act(MarkRange{});
+    update();
+    act(OpenProject{in("shot.weft")});
+    update();
+    EXPECT_EQ(view().mark_in, 2);
+    EXPECT_FALSE(view().mark_out);
+    act(OpenProject{in("other.weft")});
+    update();
+    EXPECT_FALSE(view().mark_in);
+}
+
 TEST_F(SessionFiles, MissingFilesAreListedAndRelinkedInOneStep) {
     open();
     paint();

@@ -26,10 +26,12 @@ constexpr Weights kSchemes[]{
     {"Another material", "something else that would look at home here", -1.0f, 1.8f, 1.6f, 0.8f,
      0.8f},
 };
-constexpr float kUnlikely = 0.06f;   // a less likely role gets no place
-constexpr float kServed = 0.6f;      // of a role's wish for a place, by a material usual for it
-constexpr float kAgain = 0.5f;       // of a material's chance of a place, for each that it has
-constexpr float kLikely = 0.5f;      // from here on the role is named
+constexpr float kUnlikely = 0.06f;  // a less likely role gets no place
+constexpr float kServed = 0.6f;     // of a role's wish for a place, by a material usual for it
+constexpr float kAgain = 0.5f;      // of a material's chance of a place, for each that it has
+constexpr float kLikely = 0.5f;     // from here on the role is named
+// The descriptor finds a plain shirt like stone and wood; an eye does not if the colour is another.
+constexpr float kMuchAlike = 0.25f;
 constexpr float kGrowsWell = 0.55f;  // synthesis above this is good enough
 constexpr std::size_t kLikeNow = 0, kContrast = 3, kOther = 4;
 
@@ -55,10 +57,8 @@ std::vector<std::string> reasons_of(const SampleIndex& index, const RegionScorer
     const float likelihood = scorer.material_likelihood(c.sample).value_or(0.0f);
     if (likelihood > 0.6f)
         found.emplace_back(likelihood, "is " + material + ", which the region looks like now");
-    else if (c.parts.material > 0.5f)
+    else if (c.parts.material > 0.5f && c.stands_out < kMuchAlike)
         found.emplace_back(c.parts.material, "its surface is much like the region's");
-    else if (c.parts.material < 0.15f)
-        found.emplace_back(0.3f, "its surface is unlike the region's");
     if (scorer.likely_role() >= kLikely &&
         scorer.serves(c.sample, static_cast<std::size_t>(scorer.role())))
         found.emplace_back(0.55f, "usual for " + std::string(role_name(scorer.role())));

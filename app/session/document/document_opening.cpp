@@ -7,6 +7,7 @@
 
 #include "app/project/codec/project_file.h"
 #include "app/session/document/document_saving.h"
+#include "app/session/document/recent_projects.h"
 #include "engine/core/text.h"
 #include "engine/media/plates.h"
 

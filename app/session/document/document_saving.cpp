@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/project/codec/project_file.h"
+#include "app/session/document/recent_projects.h"
 #include "engine/media/sequence_pattern.h"
 
 namespace weft {
@@ -32,14 +33,6 @@ std::string saved_text(const std::string& path, const DocumentSaved& done) {
 }
 
 }  // namespace
-
-void remember_recent(EditorSettings& settings, const std::string& path) {
-    auto& recent = settings.recent;
-    std::erase(recent, path);
-    recent.insert(recent.begin(), path);
-    constexpr std::size_t kMost = 12;
-    if (recent.size() > kMost) recent.resize(kMost);
-}
 
 // A project among the frames of a sequence is easily taken for one of them, and plates are often
 // write-protected or replaced.

@@ -65,7 +65,4 @@ class DocumentSaving {
     std::optional<SaveQuestion> question_;
 };
 
-/// Puts a project file first among the recent ones.
-void remember_recent(EditorSettings& settings, const std::string& path);
-
 }  // namespace weft
