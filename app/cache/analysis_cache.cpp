@@ -170,17 +170,6 @@ class DiskStore final : public AnalysisCache {
         return out;
     }
 
-    [[nodiscard]] fs::file_time_type last_change() const override {
-        const std::shared_lock names(names_);
-        fs::file_time_type last = fs::file_time_type::min();
-        std::error_code error;
-        for (const std::string& name : folder_names(keys_)) {
-            const auto changed = fs::last_write_time(root_ / name, error);
-            if (!error) last = std::max(last, changed);
-        }
-        return last;
-    }
-
     [[nodiscard]] std::vector<std::string> remarks() const override {
         const std::shared_lock names(names_);
         if (overflow_folder().empty()) return {};

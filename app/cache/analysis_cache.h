@@ -1,7 +1,6 @@
 #pragma once
 // The analysis on disk, keyed by content.
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,8 +35,6 @@ class AnalysisCache : public AnalysisStore {
     /// Keeps other processes from analysing the same regions; see claim_analysis(). Nothing: one of
     /// them does so now. Never waits. Thread-safe.
     [[nodiscard]] virtual std::optional<AnalysisClaim> try_claim() const = 0;
-    /// When something of the regions was last stored, by any process. Thread-safe.
-    [[nodiscard]] virtual std::filesystem::file_time_type last_change() const = 0;
 };
 
 /// The cache folder: `folder`, or the default for an empty one; empty if there is none.

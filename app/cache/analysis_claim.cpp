@@ -1,6 +1,7 @@
 #include "app/cache/analysis_claim.h"
 
 #include <algorithm>
+#include <limits>
 #include <thread>
 
 #include "engine/core/stopwatch.h"
@@ -9,17 +10,19 @@
 namespace weft {
 
 AnalysisClaim claim_analysis(const AnalysisCache& cache, std::chrono::milliseconds patience,
-                             const CancelToken& cancel, const std::function<bool()>& enough) {
+                             const CancelToken& cancel, const std::function<std::int64_t()>& left) {
     constexpr auto kPause = std::chrono::milliseconds(400);
-    auto changed = cache.last_change();
-    auto changed_at = Clock::now();
-    while (!enough() && !cancel.cancelled()) {
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    auto since = Clock::now();
+    while (!cancel.cancelled()) {
+        const std::int64_t now = left();
+        if (now == 0) break;
         if (auto claim = cache.try_claim()) return std::move(*claim);
-        if (const auto now = cache.last_change(); now != changed) {
-            changed = now;
-            changed_at = Clock::now();
+        if (now < least) {
+            least = now;
+            since = Clock::now();
         }
-        if (Clock::now() - changed_at > patience) break;
+        if (Clock::now() - since > patience) break;
         std::this_thread::sleep_for(kPause);
     }
     return {};
@@ -37,7 +40,7 @@ AnalysisClaim claim_analysis(const AnalysisCache& cache, const ShotPlan& plan,
             done = std::max(done, total - left);
             progress({WorkStage::kWait, done, total, 0, 0});
         }
-        return left == 0;
+        return left;
     });
 }
 

@@ -3,6 +3,7 @@
 // others take what it leaves in the cache.
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -12,18 +13,18 @@
 
 namespace weft {
 
-/// How long one that is neither paused nor hanging may leave nothing new, in a render and in the
-/// editor, where somebody is waiting.
-inline constexpr std::chrono::milliseconds kRenderPatience{60'000}, kEditorPatience{15'000};
+/// How long another one may store nothing that is needed, in a render and in the editor, where
+/// somebody is waiting. It may be paused or hang, or do other frames or another quality first.
+inline constexpr std::chrono::milliseconds kRenderPatience{30'000}, kEditorPatience{15'000};
 
 /// Waits until nobody else analyses the same regions, and keeps others from it until the result is
-/// destroyed. Gives up waiting, without keeping anybody from it, if `enough` says that nothing is
-/// left to be done (called once before, and several times a second while waiting), if nothing new
-/// has been stored for `patience`, or on cancelling: then the same is at worst done twice.
+/// destroyed. Gives up waiting, without keeping anybody from it, if nothing is `left` to be done
+/// (the steps; called once before, and several times a second while waiting), if that has not
+/// become less for `patience`, or on cancelling: then the same is at worst done twice.
 [[nodiscard]] AnalysisClaim claim_analysis(const AnalysisCache& cache,
                                            std::chrono::milliseconds patience,
                                            const CancelToken& cancel,
-                                           const std::function<bool()>& enough);
+                                           const std::function<std::int64_t()>& left);
 
 /// The same for the whole analysis of a plan; `progress` is told how far another one is with it, as
 /// the stage "wait".

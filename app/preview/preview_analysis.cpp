@@ -155,15 +155,15 @@ void Preview::Impl::analyse_loop() {
     }
 }
 
-// A render makes the same analysis: its frames are taken as they come. Whether to wait no longer:
-// none is left, or it is paused.
-bool Preview::Impl::await_other(const OpenedPtr& work, const std::vector<int>& list, int total) {
+// A render makes the same analysis: its frames are taken as they come. The steps to wait for: none
+// of one that is paused.
+int Preview::Impl::await_other(const OpenedPtr& work, const std::vector<int>& list, int total) {
     const int left = steps_to(*work, list);
     if (left < total) {
         ++guarded.lock()->visits;
         show_steps(*work, total - left);
     }
-    return left == 0 || render_paused;
+    return render_paused ? 0 : left;
 }
 
 void Preview::Impl::analyse(const OpenedPtr& work, const std::vector<int>& list, bool keep_walks,

@@ -136,7 +136,7 @@ struct Preview::Impl {
     // ---- the analysis thread (preview_analysis.cpp) ----
     void analyse_loop();
     void show_steps(const OpenedShot& work, int more);
-    [[nodiscard]] bool await_other(const OpenedPtr& work, const std::vector<int>& list, int total);
+    [[nodiscard]] int await_other(const OpenedPtr& work, const std::vector<int>& list, int total);
     void analyse(const OpenedPtr& opened, const std::vector<int>& frames, bool keep_walks,
                  const CancelToken& token);
     void propagate_to(const OpenedShot& opened, int frame, const CancelToken& token);

@@ -50,7 +50,7 @@ TEST_F(AnalysisClaims, WhoWaitsTakesOverWhenTheOtherEnds) {
     });
     const auto taken = claim_analysis(*second, std::chrono::minutes(1), {}, [&] {
         ++asked;
-        return false;
+        return 1;
     });
     other.join();
     EXPECT_FALSE(taken.empty());
@@ -60,13 +60,28 @@ TEST_F(AnalysisClaims, WhoWaitsTakesOverWhenTheOtherEnds) {
 TEST_F(AnalysisClaims, NobodyWaitsForOneThatStandsStillOrForNothing) {
     const auto first = open(), second = open();
     const auto claim = first->try_claim();
-    const auto never = [] { return false; };
+    const auto never = [] { return 1; };
     EXPECT_TRUE(claim_analysis(*second, milliseconds(1), {}, never).empty()) << "it is paused";
-    EXPECT_TRUE(claim_analysis(*second, std::chrono::minutes(1), {}, [] { return true; }).empty())
+    EXPECT_TRUE(claim_analysis(*second, std::chrono::minutes(1), {}, [] { return 0; }).empty())
         << "all is there";
     const CancelToken cancelled;
     cancelled.cancel();
     EXPECT_TRUE(claim_analysis(*second, std::chrono::minutes(1), cancelled, never).empty());
+}
+
+// A job of eight frames does not wait for the editor, which goes through the whole shot and stores
+// something all the time.
+TEST_F(AnalysisClaims, NobodyWaitsForWhatIsNotNeeded) {
+    const auto first = open(), second = open();
+    const auto claim = first->try_claim();
+    int frame = 1000;
+    const auto busy = [&] {
+        const AnalysisKey other{0, ++frame, AnalysisKind::kMatteForward, 0};
+        EXPECT_TRUE(first->put(other, {1, 2, 3}));
+        return 1;
+    };
+    EXPECT_TRUE(claim_analysis(*second, milliseconds(300), {}, busy).empty());
+    EXPECT_LT(frame, 1010);
 }
 
 TEST_F(AnalysisClaims, TwoRendersAtOnceAnalyseTheShotOnce) {
