@@ -259,7 +259,7 @@ cv::Rect box_around(const cv::Mat& marks) {
 struct Cut {
     cv::Mat coarse, fine;
     bool is_enclosed = false;    // by edges of the picture
-    bool is_lines_only = false;  // nothing beside the lines inside was found
+    bool is_lines_only = false;  // nothing beside the lines inside, which end at no edge
 };
 
 Cut cut_out(const Crop& crop, const cv::Rect& box, cv::Size picture) {
@@ -276,7 +276,8 @@ Cut cut_out(const Crop& crop, const cv::Rect& box, cv::Size picture) {
     cv::Mat lines;
     cv::resize(crop.inside, lines, out.coarse.size(), 0, 0, cv::INTER_AREA);
     constexpr double kLittle = 1.25;
-    out.is_lines_only = cv::countNonZero(out.coarse) <= kLittle * cv::countNonZero(lines > 127);
+    out.is_lines_only =
+        !out.is_enclosed && cv::countNonZero(out.coarse) <= kLittle * cv::countNonZero(lines > 127);
     return out;
 }
 

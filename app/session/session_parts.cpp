@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/project/codec/project_file.h"
-#include "app/session/document/recent_projects.h"
 #include "app/session/timeline_marks.h"
 
 namespace weft {

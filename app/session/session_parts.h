@@ -17,6 +17,7 @@
 #include "app/session/document/document_tasks.h"
 #include "app/session/document/document_trust.h"
 #include "app/session/document/notices.h"
+#include "app/session/document/recent_projects.h"
 #include "app/session/document/selection.h"
 #include "app/session/document/shutdowns.h"
 #include "app/session/jobs/measurement.h"

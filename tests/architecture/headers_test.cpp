@@ -64,6 +64,7 @@ const std::vector<Untested> kThroughOthers{
     {"app/session/document/document_opening.h", "internal: tests/session, through Session"},
     {"app/session/document/document_saving.h", "internal: tests/session, through Session"},
     {"app/session/document/document_trust.h", "internal: tests/session, through Session"},
+    {"app/session/document/recent_projects.h", "internal: tests/session, through Session"},
     {"app/session/document/shutdowns.h", "internal: tests/session, through Session"},
     {"app/session/jobs/measured_result.h", "internal: tests/session, through Session"},
     {"app/session/jobs/measurement.h", "internal: tests/session, through Session"},
