@@ -275,7 +275,11 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
         else if (s.plane.believed())
             s.leave_plane(*s.last);
     }
-    s.follow(was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur));
+    const LatticeField measured = was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur);
+    // While nothing is registered, nothing holds the steps: they would draw it out without end.
+    const bool is_held = was_hidden || !s.lost || s.plane.believed();
+    s.follow(is_held ? measured : similar_motion(measured, visible));
+    s.prev_from_cur = measured;
     if (step.by_outline) {
         s.register_drawing(cur);
         if (s.plane.is_said())
