@@ -40,17 +40,17 @@ bool goes_along(const GroundStep& step, int x, int y) {
     return speaks_against(pair, {x, y}, surface, own) < kDoubt;
 }
 
-// The palette's log odds, means over the surroundings that are not known either: a sheet's fold or
-// stripe alone may be anybody's.
+// The palette's log odds, summed over the surroundings that are not known either: a sheet's fold
+// or stripe alone may be anybody's.
 cv::Mat odds_around(const GroundStep& step, const Matte& known, const SurfacePalette& palette) {
     constexpr float kReach_px = 4;
-    cv::Mat sums(known.height(), known.width(), CV_32FC2, cv::Scalar::all(0));
+    cv::Mat sums(known.height(), known.width(), CV_32F, cv::Scalar::all(0));
     parallel_rows(known.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
-            auto* sum = sums.ptr<cv::Vec2f>(y);
+            auto* sum = sums.ptr<float>(y);
             for (int x = 0; x < known.width(); ++x) {
                 if (step.phi.row(y)[x] <= 0 && known.at(x, y) == 0)
-                    sum[x] = {palette.odds(step.frame.pixel(x, y)), 1};
+                    sum[x] = palette.odds(step.frame.pixel(x, y));
             }
         }
     });
@@ -152,7 +152,7 @@ void UnseenGround::follow(const GroundStep& step, const SurfacePalette& palette)
                 if (step.phi.row(y)[x] > 0 || known.at(x, y) != 0) continue;
                 const Vec2i from = source(x, y);
                 const int so_far = was_seen({x, y}, from) ? waited_.at(from.x, from.y) : 0;
-                const bool is_like = odds.at<cv::Vec2f>(y, x)[0] > 0 && goes_along(step, x, y);
+                const bool is_like = odds.at<float>(y, x) > 0 && goes_along(step, x, y);
                 waited.at(x, y) = static_cast<std::uint8_t>(
                     std::clamp(so_far + (is_like ? 1 : -2), 0, int{kMostWaited}));
             }

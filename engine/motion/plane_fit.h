@@ -40,10 +40,10 @@ struct PlaneFitOptions {
 [[nodiscard]] Vec2 mapped(const glm::dmat3& plane, Vec2 p);
 
 /// As deep as a homography is followed beyond what it was fitted to: half of the least of `depths`
-/// (the third coordinates of those places), a twentieth of their median where that is less. A field
-/// over the whole frame continues with this depth, as an affine motion; at the horizon it would be
-/// infinite, and what is composed with it or bends beside it would be drawn along. 1 without any
-/// place. Pure.
+/// (the third coordinates of those places), or a twentieth of their median where that is more. A
+/// field over the whole frame continues with this depth, as an affine motion; at the horizon it
+/// would be infinite, and what is composed with it or bends beside it would be drawn along. 1
+/// without any place. Pure.
 [[nodiscard]] double nearest_depth(std::vector<double> depths);
 
 /// How far it moves p; px.

@@ -116,14 +116,19 @@ Similarity fit(const LatticeField& field, const ImageF1& weight, ScaleRange rang
 
 constexpr ScaleRange kAnyScale{2.0f / 3, 1.5f};  // of one that nobody has asked for
 
+// 1 at nodes that are seen.
+ImageF1 seen_nodes(const LatticeField& field, ViewU8x1 visible) {
+    ImageF1 out(field.nodes().size());
+    for (int j = 0; j < out.height(); ++j) {
+        for (int i = 0; i < out.width(); ++i)
+            out.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
+    }
+    return out;
+}
+
 // That of what is seen.
 Similarity similarity_of(const LatticeField& field, ViewU8x1 visible) {
-    ImageF1 weight(field.nodes().size());
-    for (int j = 0; j < weight.height(); ++j) {
-        for (int i = 0; i < weight.width(); ++i)
-            weight.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
-    }
-    return fit(field, weight, kAnyScale);
+    return fit(field, seen_nodes(field, visible), kAnyScale);
 }
 
 // 1 within `reach` nodes of the marks, falling smoothly to 0 at twice that distance.
@@ -150,14 +155,9 @@ ImageF1 spread(const ImageF1& marks, int reach) {
 // 0 at what is seen and what a few frames may bring into view, rising to 1 farther off.
 ImageF1 out_of_sight(const LatticeField& field, ViewU8x1 visible) {
     constexpr int kMargin = 3;  // nodes
-    ImageF1 seen(field.nodes().size());
-    for (int j = 0; j < seen.height(); ++j) {
-        for (int i = 0; i < seen.width(); ++i)
-            seen.at(i, j) = inside(field, visible, i, j) ? 1.0f : 0.0f;
-    }
-    ImageF1 out = spread(seen, kMargin);
-    for (int j = 0; j < seen.height(); ++j) {
-        for (int i = 0; i < seen.width(); ++i)
+    ImageF1 out = spread(seen_nodes(field, visible), kMargin);
+    for (int j = 0; j < out.height(); ++j) {
+        for (int i = 0; i < out.width(); ++i)
             out.at(i, j) = 1 - out.at(i, j);
     }
     return out;
