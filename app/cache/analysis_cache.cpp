@@ -68,6 +68,8 @@ const char* kind_name(AnalysisKind kind) {
             return "track-after";
         case AnalysisKind::kHeldBetween:
             return "held-between";
+        case AnalysisKind::kHidingFrames:
+            return "hiding-frames";
         case AnalysisKind::kLightSample:
             return "light-sample";
         case AnalysisKind::kShading:

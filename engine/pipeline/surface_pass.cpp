@@ -234,6 +234,8 @@ class Follower {
         if (held)
             WEFT_CHECK_OK(
                 keep(job, back ? frame + 1 : frame, AnalysisKind::kHeldBetween, encode(1.0f)));
+        WEFT_CHECK_OK(keep(job, frame, AnalysisKind::kHidingFrames,
+                           encode(static_cast<float>(job.track->hiding_frames()))));
         WEFT_CHECK_OK(
             keep(job, frame, AnalysisKind::kTrackBefore, encode(back ? relaxed : *stretched)));
         return keep(job, frame, AnalysisKind::kTrackAfter, encode(back ? *stretched : relaxed));

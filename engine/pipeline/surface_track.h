@@ -63,6 +63,8 @@ class SurfaceTrack {
     [[nodiscard]] int part_count() const { return walker_.part_count(); }
     /// Null unless a seam hides that the texture returned to its shape.
     [[nodiscard]] const LatticeField* stretched() const;
+    /// As SurfaceWalker's.
+    [[nodiscard]] int hiding_frames() const { return walker_.hiding_frames(); }
     [[nodiscard]] std::vector<LatticeField> take_found_late();
 
   private:

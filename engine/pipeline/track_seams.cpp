@@ -87,11 +87,14 @@ class SeamMaker {
         std::vector<Layers> seen(1);
         WEFT_TRY(layers, layers_at(event));
         seen[0] = std::move(layers);
-        const Size cells = choose_cells(seen, kReanchorFrames, seam);
+        WEFT_TRY(bytes, store_.get({index_, event, AnalysisKind::kHidingFrames}));
+        WEFT_TRY(frames, decode_number(bytes));
+        const auto hiding = static_cast<std::size_t>(std::lround(std::max(1.0f, frames)));
+        const Size cells = choose_cells(seen, hiding, seam);
         if (cells.empty()) return seam;
         WEFT_TRY(evidence, evidence_of(seen[0], event, seam, cells));
         const std::uint64_t seed = plan_.seed ^ region_.random_key;
-        const auto labels = cut_between_tracks(std::vector(std::size_t{kReanchorFrames}, evidence),
+        const auto labels = cut_between_tracks(std::vector(hiding, evidence),
                                                {.lambda = region_.weight, .seed = seed});
         std::size_t drawing = 0;
         for (int f = event;; f += backwards ? -1 : 1) {

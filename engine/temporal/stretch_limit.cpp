@@ -11,11 +11,6 @@
 namespace weft {
 namespace {
 
-// The limits: how much longer than wide a round spot of the texture becomes, and how much larger or
-// smaller, beside the whole surface. A ball shows the first where it is turned away by 73°.
-constexpr float kMostDrawnOut = 3.5f, kMostScaled = 2.0f;
-// What it is brought back to, so that it is not past them again at once.
-constexpr float kDrawnOutAfter = 1.5f, kScaledAfter = 1.2f;
 constexpr float kPull = 0.7f;  // of the way back, per frame
 
 Vec2 landing(const LatticeField& field, int i, int j) {
@@ -51,9 +46,10 @@ float drawn_out(const LocalShape& shape) {
 }
 
 // In units of the limits: above 1 it is past one of them.
-float stretch_of(const LocalShape& shape, float whole) {
+float stretch_of(const LocalShape& shape, const StretchLimits& limits, float whole) {
     const float scale = scale_of(shape) / whole;
-    return std::max(drawn_out(shape) / kMostDrawnOut, std::max(scale, 1 / scale) / kMostScaled);
+    return std::max(drawn_out(shape) / limits.drawn_out,
+                    std::max(scale, 1 / scale) / limits.scaled);
 }
 
 bool inside(const LatticeField& field, ViewU8x1 visible, int i, int j) {
@@ -168,12 +164,12 @@ struct Slopes {
     Vec2 along_x, along_y;
 };
 
-Slopes limited_slopes(const LocalShape& shape, float whole) {
+Slopes limited_slopes(const LocalShape& shape, const StretchLimits& limits, float whole) {
     float scale = scale_of(shape) / whole;
-    if (std::max(scale, 1 / scale) > kMostScaled)
-        scale = scale > 1 ? kScaledAfter : 1 / kScaledAfter;
+    if (std::max(scale, 1 / scale) > limits.scaled)
+        scale = scale > 1 ? limits.scaled_after : 1 / limits.scaled_after;
     const float is = drawn_out(shape);
-    const float half = std::sqrt(is > kMostDrawnOut ? kDrawnOutAfter : is);
+    const float half = std::sqrt(is > limits.drawn_out ? limits.drawn_out_after : is);
     const float large = whole * scale * half, small = whole * scale / half;
     const Vec2 before(std::cos(shape.before), std::sin(shape.before));
     const Vec2 after(std::cos(shape.after), std::sin(shape.after));
@@ -233,18 +229,27 @@ ImageF2 laid_by(const Image<Slopes, 1>& slopes, const ImageF1& free, const Latti
 
 }  // namespace
 
+StretchLimits StretchLimits::towards(const StretchLimits& tight, float share) const {
+    const auto mixed = [&](float here, float there) { return here + share * (there - here); };
+    return {mixed(drawn_out, tight.drawn_out),
+            mixed(scaled, tight.scaled),
+            mixed(drawn_out_after, tight.drawn_out_after),
+            mixed(scaled_after, tight.scaled_after),
+            {mixed(whole.least, tight.whole.least), mixed(whole.most, tight.whole.most)}};
+}
+
 std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 visible,
-                                            ScaleRange range) {
+                                            const StretchLimits& limits) {
     constexpr float kMuch = 0.2f;    // of the surface
     constexpr float kEnough = 0.7f;  // of the limit, so that it is not reached again at once
     const Size size = field.nodes().size();
     ImageF1 excess(size), weight(size);
-    const float whole = whole_scale(field, visible, range);
+    const float whole = whole_scale(field, visible, limits.whole);
     int seen = 0, past = 0;
     for (int j = 1; j + 1 < size.height; ++j) {
         for (int i = 1; i + 1 < size.width; ++i) {
             if (!inside(field, visible, i, j)) continue;
-            const bool over = stretch_of(shape_at(field, i, j), whole) > 1;
+            const bool over = stretch_of(shape_at(field, i, j), limits, whole) > 1;
             excess.at(i, j) = over ? 1.0f : 0.0f;
             weight.at(i, j) = over ? 0.02f : 1.0f;
             ++seen;
@@ -252,7 +257,8 @@ std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 
         }
     }
     if (seen == 0 || static_cast<float>(past) < kMuch * static_cast<float>(seen)) return {};
-    const Similarity target = fit(field, weight, {whole / kScaledAfter, whole * kScaledAfter});
+    const Similarity target =
+        fit(field, weight, {whole / limits.scaled_after, whole * limits.scaled_after});
     const ImageF1 hidden = out_of_sight(field, visible);
     for (int reach = 4; reach <= 64; reach *= 2) {
         const ImageF1 pull = reach < 64 ? spread(excess, reach) : ImageF1(size, 1.0f);
@@ -268,7 +274,7 @@ std::optional<LatticeField> relaxed_stretch(const LatticeField& field, ViewU8x1 
         for (int j = 1; j + 1 < size.height; ++j) {
             for (int i = 1; i + 1 < size.width; ++i) {
                 if (inside(out, visible, i, j))
-                    most = std::max(most, stretch_of(shape_at(out, i, j), whole));
+                    most = std::max(most, stretch_of(shape_at(out, i, j), limits, whole));
             }
         }
         if (most <= kEnough || reach == 64) return out;
@@ -289,13 +295,14 @@ LatticeField similar_motion(const LatticeField& field, ViewU8x1 visible) {
 }
 
 LatticeField tame_out_of_sight(const LatticeField& field, ViewU8x1 visible) {
+    const StretchLimits limits;
     const float whole = whole_scale(field, visible, kAnyScale);
     const ImageF1 hidden = out_of_sight(field, visible);
     float most = 0;
     for (int j = 1; j + 1 < hidden.height(); ++j) {
         for (int i = 1; i + 1 < hidden.width(); ++i) {
             if (hidden.at(i, j) > 0)
-                most = std::max(most, stretch_of(shape_at(field, i, j), whole));
+                most = std::max(most, stretch_of(shape_at(field, i, j), limits, whole));
         }
     }
     if (most <= 1) return field;
@@ -310,16 +317,16 @@ LatticeField tame_out_of_sight(const LatticeField& field, ViewU8x1 visible) {
     return out;
 }
 
-bool limit_stretch(LatticeField& field, ViewU8x1 visible, ScaleRange range) {
+bool limit_stretch(LatticeField& field, ViewU8x1 visible, const StretchLimits& limits) {
     constexpr int kReach = 2;  // nodes
     const Size size = field.nodes().size();
-    const float whole = whole_scale(field, visible, range);
+    const float whole = whole_scale(field, visible, limits.whole);
     ImageF1 past(size);
     bool any = false;
     for (int j = 1; j + 1 < size.height; ++j) {
         for (int i = 1; i + 1 < size.width; ++i) {
             if (!inside(field, visible, i, j)) continue;
-            if (stretch_of(shape_at(field, i, j), whole) <= 1) continue;
+            if (stretch_of(shape_at(field, i, j), limits, whole) <= 1) continue;
             past.at(i, j) = 1;
             any = true;
         }
@@ -336,7 +343,7 @@ bool limit_stretch(LatticeField& field, ViewU8x1 visible, ScaleRange range) {
     for (int j = 0; j < size.height; ++j) {
         for (int i = 0; i < size.width; ++i) {
             const int u = std::clamp(i, 1, size.width - 2), v = std::clamp(j, 1, size.height - 2);
-            slopes.at(i, j) = limited_slopes(shape_at(field, u, v), whole);
+            slopes.at(i, j) = limited_slopes(shape_at(field, u, v), limits, whole);
         }
     }
     const ImageF2 target = laid_by(slopes, free, field);

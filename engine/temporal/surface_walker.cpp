@@ -125,6 +125,7 @@ void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>
     } else {
         correct(anchors.present_index(), mix(anchor_from_cur, found.anchor_from_cur,
                                              found.planar ? kPlanarGain : kSmoothGain));
+        doubt.note(found.fit);
         if (reanchor(visible)) {
             // The texture has slid: older anchors would pull it back.
             anchors.clear();
@@ -135,7 +136,9 @@ void SurfaceWalker::State::register_frame(const std::shared_ptr<const StepFrame>
     }
     constexpr double kEnough = 0.6;
     if (found.fit.share < kEnough) {
-        if (!try_others(*cur, anchors.present().generation + 1, kEnough)) become_anchor(cur);
+        if (try_others(*cur, anchors.present().generation + 1, kEnough)) return;
+        doubt.note_replaced();
+        become_anchor(cur);
         return;
     }
     // An older anchor has less drift, so it is used again when the view returns to it.
@@ -276,9 +279,8 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
             s.leave_plane(*s.last);
     }
     const LatticeField measured = was_hidden ? s.prev_from_cur : std::move(step.prev_from_cur);
-    // While nothing is registered, nothing holds the steps: they would draw it out without end.
-    const bool is_held = was_hidden || !s.lost || s.plane.believed();
-    s.follow(is_held ? measured : similar_motion(measured, visible));
+    // Where nothing is registered, nothing holds the steps: they would draw it out without end.
+    s.follow(was_hidden ? measured : s.believed_step(measured, visible));
     s.prev_from_cur = measured;
     if (step.by_outline) {
         s.register_drawing(cur);
@@ -294,6 +296,9 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
 
 const LatticeField* SurfaceWalker::stretched() const {
     return state_->stretched.nodes().empty() ? nullptr : &state_->stretched;
+}
+int SurfaceWalker::hiding_frames() const {
+    return state_->hiding_frames;
 }
 void SurfaceWalker::hide_reanchoring(bool hide) {
     state_->hide_reanchoring = hide;

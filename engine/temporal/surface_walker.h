@@ -74,8 +74,11 @@ class SurfaceWalker {
     /// returns to its own shape at once (relaxed_stretch()), and a seam hides the change over the
     /// next frames. Otherwise it slides back slowly, which is the default.
     void hide_reanchoring(bool hide);
-    /// For kReanchorFrames frames after that: ref_from_cur without the return. Else null.
+    /// For hiding_frames() after that: ref_from_cur without the return. Else null.
     [[nodiscard]] const LatticeField* stretched() const;
+    /// Over how many frames the latest return is hidden: kReanchorFrames, or down to a quarter of
+    /// that where the picture does not hold the surface.
+    [[nodiscard]] int hiding_frames() const;
     /// Goes on to a frame whose motion is known everywhere: of the step, and to the frame of the
     /// anchor. Nothing is estimated or registered.
     void advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField prev_from_cur,

@@ -10,6 +10,7 @@
 
 #include "engine/temporal/anchors.h"
 #include "engine/temporal/exposure_match.h"
+#include "engine/temporal/following_doubt.h"
 #include "engine/temporal/jointed_parts.h"
 #include "engine/temporal/lost_places.h"
 #include "engine/temporal/rigid_plane.h"
@@ -36,6 +37,7 @@ struct SurfaceWalker::State {
     MotionChoice choice;
     ExposureMatch exposure;
     LostPlaces lost_places;
+    FollowingDoubt doubt;
     RigidPlane plane;
     int since_older_tried = 0;  // frames
 
@@ -46,7 +48,7 @@ struct SurfaceWalker::State {
     // After the texture was released to its own shape: its previous track, continued for the
     // frames over which a seam hides the change.
     LatticeField relaxed_at_event, stretched_at_event, stretched;
-    int hiding_left = 0;  // frames
+    int hiding_left = 0, hiding_frames = kReanchorFrames;
     bool hide_reanchoring = false;
 
     bool lost = false;                     // not visible, or not found again yet
@@ -99,7 +101,8 @@ struct SurfaceWalker::State {
     [[nodiscard]] bool is_sliver(std::int64_t visible_px) const {
         return 6 * visible_px < largest_px;
     }
-    [[nodiscard]] ScaleRange scale_range(ViewU8x1 visible) const;
+    [[nodiscard]] StretchLimits stretch_limits(ViewU8x1 visible) const;
+    [[nodiscard]] LatticeField believed_step(const LatticeField& measured, ViewU8x1 visible) const;
     bool reanchor(ViewU8x1 visible);
     void slide_back(ViewU8x1 visible);
     void advance_stretched();

@@ -17,19 +17,22 @@ LatticeField slid(float by) {
     return field;
 }
 
-// A shot whose texture was let go on a frame and is hidden from `first` to `last`.
+// A shot whose texture was let go on a frame and is shown hidden from `first` to `last`; all of it
+// would take `frames`.
 struct Release {
     MemoryShot shot = make_wall();
     MemoryAnalysisStore store;
     PlanePyramid plane;
 
-    Release(int first, int last, bool backwards) {
+    Release(int first, int last, bool backwards, int frames = kReanchorFrames) {
         const std::shared_ptr<const TexturePicture> texture = sample_texture();
         ImageF3 picture = texture->pixels;
         color("srgb", "linear")->apply(picture);
         plane = PlanePyramid(picture, WrapMode::kMirror);
         const Bytes stretched = encode(slid(9)), relaxed = encode(slid(0));
         for (int f = first; f <= last; ++f) {
+            EXPECT_TRUE(
+                store.put({0, f, AnalysisKind::kHidingFrames}, encode(static_cast<float>(frames))));
             EXPECT_TRUE(store.put({0, f, AnalysisKind::kCoords}, relaxed));
             EXPECT_TRUE(
                 store.put({0, f, AnalysisKind::kTrackBefore}, backwards ? relaxed : stretched));
@@ -69,6 +72,14 @@ TEST(ReleaseSeam, ChangesFromTheStretchedTextureToTheRelaxedOneBitByBit) {
         EXPECT_LT(shown_after(seams[0], f) - shown_after(seams[0], f - 1), 0.4f) << f;
     }
     EXPECT_GT(shown_after(seams[0], 10), 0.1f);
+}
+
+// What is not followed well is stretched further on every frame: it is not shown for long.
+TEST(ReleaseSeam, IsAsShortAsTheTrackSays) {
+    const auto seams = Release(3, 6, false, 4).seams(1, 1, 10);
+    ASSERT_EQ(seams.size(), 1u);
+    EXPECT_LT(shown_after(seams[0], 3), 0.4f);
+    EXPECT_GT(shown_after(seams[0], 6), 0.9f);
 }
 
 TEST(ReleaseSeam, IsTheSameForAPartOfTheShot) {

@@ -31,6 +31,14 @@ TEST(StretchLimit, LeavesAnOrdinaryStretchAlone) {
     EXPECT_EQ(field.nodes(), before);
 }
 
+TEST(StretchLimit, AsksForLessTheTighterItIs) {
+    const StretchLimits tight{.drawn_out = 1.5f, .drawn_out_after = 1.2f};
+    LatticeField field = squeezed(0.5f);
+    EXPECT_FALSE(limit_stretch(field, Matte(256, 128, 255), StretchLimits().towards(tight, 0.5f)));
+    EXPECT_TRUE(limit_stretch(field, Matte(256, 128, 255), StretchLimits().towards(tight, 1)));
+    EXPECT_GT(slope_on_the_right(field), 0.55f);
+}
+
 TEST(StretchLimit, LetsASmearSlideBackOverSomeFrames) {
     LatticeField field = squeezed(0.1f);
     const Matte visible(256, 128, 255);
@@ -49,7 +57,7 @@ TEST(StretchLimit, LeavesAWholeThatGrowsAlone) {
     }
     const Matte visible(256, 128, 255);
     LatticeField grown = field;
-    EXPECT_FALSE(limit_stretch(grown, visible, {0.25f, 1}));
+    EXPECT_FALSE(limit_stretch(grown, visible, {.whole = {0.25f, 1}}));
     EXPECT_TRUE(limit_stretch(grown, visible));
 }
 
