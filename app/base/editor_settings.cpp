@@ -80,6 +80,7 @@ EditorSettings load_editor_settings(const std::string& path) {
     take(json, "render_speed", out.render_speed);
     take(json, "matte_opacity", out.matte_opacity);
     take(json, "correct_only_where_painted", out.here_only);
+    take(json, "paint_program", out.paint_program);
     take(json, "screen_display", out.screen_display);
     take(json, "screen_view", out.screen_view);
     return out;
@@ -103,6 +104,7 @@ Status save_editor_settings(const std::string& path, const EditorSettings& s) {
                     {"render_speed", s.render_speed},
                     {"matte_opacity", s.matte_opacity},
                     {"correct_only_where_painted", s.here_only},
+                    {"paint_program", s.paint_program},
                     {"screen_display", s.screen_display},
                     {"screen_view", s.screen_view}};
     return write_file_atomically(

@@ -32,7 +32,8 @@ struct EditorSettings {
     double matte_opacity = 0.38;  ///< Of the selected region's matte over the plate.
     /// Corrections of propagated frames count where they are made only (StrokeKind::kHere).
     bool here_only = true;
-    double render_speed = 1;                  ///< Speed of this machine, from calibrated_speed().
+    std::string paint_program;  ///< Its command; empty: the first known one that is installed.
+    double render_speed = 1;    ///< Speed of this machine, from calibrated_speed().
     std::string screen_display, screen_view;  ///< As ChooseScreen::name; both empty: the default.
     bool operator==(const EditorSettings&) const = default;
 };

@@ -19,6 +19,9 @@ SessionOptions session_options(const EditorOptions& options) {
     out.texture_library = options.texture_library;
     out.state_folder = editor_state_folder();
     out.trust_file = TrustList::of_user().file();
+    // What a script shows does not depend on what is installed.
+    out.paint_programs = options.script.empty() ? installed_paint_programs()
+                                                : std::vector{paint_program_of("krita")};
     out.offer_recovery = options.script.empty();
     return out;
 }

@@ -15,7 +15,7 @@ Preview::Preview(AnalysisCacheOptions cache, std::string texture_library, std::s
 Preview::~Preview() = default;
 
 bool Preview::try_request(const PreviewRequest& request) {
-    std::string pixels = pixel_key(request.project);
+    std::string pixels = pixel_key(request.project) + std::to_string(request.files);
     std::string analysis = analysis_key(request.project);
     std::optional<PreviewRequest> next = request;  // the one before is freed after the lock is
     const auto shared = impl_->guarded.try_lock();

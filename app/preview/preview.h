@@ -78,6 +78,7 @@ struct PreviewRequest {
     RegionId overlay_region = 0;
     std::vector<CardRequest> cards;  ///< Cards to render after the frame.
     PaintedMattes painted;           ///< Painted mattes that may not be on disk yet.
+    std::uint64_t files = 0;         ///< Another number: files of textures were written anew.
     bool interactive = false;        ///< During playback: do not refine to full size.
 };
 

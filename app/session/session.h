@@ -22,6 +22,7 @@ struct SessionOptions {
     std::string state_folder;     ///< See editor_state_folder().
     std::string texture_library;  ///< Library of textures "db:ID"; empty: the user's own.
     std::string trust_file;       ///< File of the TrustList; empty: no project file is trusted.
+    std::vector<PaintProgram> paint_programs;  ///< To choose from, the most suitable first.
     AnalysisCacheOptions cache;
     std::size_t plate_budget_bytes = std::size_t{640} << 20;
     bool offer_recovery = true;

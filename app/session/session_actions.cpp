@@ -189,6 +189,8 @@ struct Session::Parts::Actor {
     }
     void operator()(const CommandJob& a) const { s.renders_.command(a); }
     void operator()(const MeasureResult& a) const { s.measurement_.start(a.pattern); }
+    void operator()(const PaintFlat& a) const { s.flat_painting_.paint(a); }
+    void operator()(const StopPaintFlat&) const { s.flat_painting_.stop(); }
 
   private:
     void select_added(const AddRegion& added) const {

@@ -43,6 +43,10 @@ Session::Parts::Parts(SessionOptions options, EditorSettings* settings)
       form_check_({document_, plate_, preview_desk_, shown_mattes_}),
       textures_({document_, tasks_, notices_, shutdowns_, settings_, options_.texture_library,
                  options_.state_folder}),
+      texture_files_(document_, notices_),
+      flat_painting_({document_, plate_, shelf_, tasks_, notices_, settings_,
+                      options_.paint_programs, [this] { end_painting(); }, options_.program,
+                      options_.state_folder}),
       renders_({document_, plate_, trust_, shelf_, tasks_, notices_, [this] { end_painting(); },
                 options_.program, options_.state_folder}),
       measurement_({document_, selection_, plate_, preview_, notices_, shutdowns_}) {
@@ -85,6 +89,7 @@ void Session::Parts::document_changed() {
     preview_desk_.ask();
     plate_.open(plate());
     selection_.follow(document_.project());
+    texture_files_.follow();
 }
 
 WriteRule Session::Parts::export_rule() const {
@@ -112,12 +117,12 @@ void Session::Parts::flush() {
 bool Session::Parts::busy() const {
     return playback_.direction() != 0 || painting_.active() || changes_.busy() || trial_.busy() ||
            textures_.busy() || plate_.opening() || !tasks_.empty() || preview_desk_.pending() ||
-           strip_.busy() || measurement_.busy();
+           strip_.busy() || measurement_.busy() || flat_painting_.busy();
 }
 
 std::uint64_t Session::Parts::changes() const {
     return shelf_.changes() + preview_.changes() + renders_.changes() + plate_.changes() +
-           propagated_.changes();
+           propagated_.changes() + texture_files_.changes();
 }
 
 // ---- update() --------------------------------------------------------------------------------
@@ -145,6 +150,8 @@ void Session::Parts::advance(double now_s) {
     enter("mattes");
     advance_mattes();
     textures_.take();
+    flat_painting_.watch();
+    if (texture_files_.take()) preview_desk_.show_files(texture_files_.version());
     enter("preview");
     if (preview_desk_.pending() && !painting_.active())
         preview_desk_.request(now_s, strip_.requests());
@@ -206,6 +213,7 @@ void Session::Parts::show(double now_s) {
     enter("jobs");
     renders_.watch();
     renders_.show(view_);
+    flat_painting_.show(view_);
     preview_.set_render_paused(
         std::any_of(view_.jobs.begin(), view_.jobs.end(),
                     [](const JobView& job) { return job.state == JobState::kPaused; }));

@@ -20,6 +20,7 @@
 #include "app/session/document/recent_projects.h"
 #include "app/session/document/selection.h"
 #include "app/session/document/shutdowns.h"
+#include "app/session/jobs/flat_painting.h"
 #include "app/session/jobs/measurement.h"
 #include "app/session/jobs/renders.h"
 #include "app/session/mattes/cryptomatte_pick.h"
@@ -36,6 +37,7 @@
 #include "app/session/mattes/shown_mattes.h"
 #include "app/session/session.h"
 #include "app/session/textures/texture_choices.h"
+#include "app/session/textures/texture_files.h"
 #include "app/session/viewer/preview_desk.h"
 #include "app/session/viewer/screens.h"
 #include "app/session/viewer/shown_plate.h"
@@ -134,6 +136,8 @@ class Session::Parts final : private DocumentFollower {
     FormCheck form_check_;
 
     TextureChoices textures_;
+    TextureFiles texture_files_;
+    FlatPainting flat_painting_;
     Renders renders_;
     Measurement measurement_;
 };

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/base/paint_programs.h"
 #include "app/base/picture.h"
 #include "app/exchange/merge_project.h"
 #include "app/jobs/child_jobs.h"
@@ -115,6 +116,14 @@ struct SaveQuestion {
     std::vector<std::string> merged;  ///< As MergedProject::changed.
 };
 
+/// A surface that is being written by PaintFlat.
+struct FlattenView {
+    RegionId region = 0;
+    std::optional<WorkStage> stage;  ///< Empty: it has not begun.
+    int done = 0, total = 0;
+    double left_s = 0;  ///< 0: not known.
+};
+
 /// Files being copied by CollectProject.
 struct CollectView {
     std::string folder;
@@ -220,6 +229,8 @@ struct SessionView {
     std::optional<TrustOffer> trust;
     std::optional<SaveQuestion> save_question;  ///< AnswerSave answers it.
     std::optional<CollectView> collecting;
+    std::optional<FlattenView> flattening;
+    std::vector<PaintProgram> paint_programs;  ///< The chosen one first.
     QualityReport report;
     std::vector<std::string> recent;  ///< Project files, the newest first.
     std::string backend = "CPU";

@@ -28,9 +28,10 @@ const std::vector<std::string> kAllowed{
     "app/project/matte_parameters.cpp",
     "app/project/project_parameters.cpp",
     "app/project/region_parameters.cpp",
-    "app/farm/farm_engines.cpp",        // writes a farm's scripts
-    "app/jobs/job_worker.cpp",          // starts `weft render`
-    "texture_db/sources/packages.cpp",  // runs apt-cache
+    "app/farm/farm_engines.cpp",           // writes a farm's scripts
+    "app/jobs/job_worker.cpp",             // starts `weft render`
+    "app/session/jobs/flat_painting.cpp",  // starts `weft flatten`
+    "texture_db/sources/packages.cpp",     // runs apt-cache
 };
 
 std::vector<std::string> flags_in(const std::string& text) {

@@ -172,6 +172,7 @@ void texture_inspector(Ctx& c) {
                     wrapped(c, "Taken for " + kind->second + ".", t.quiet);
             }
         }
+        flat_controls(c, *region);
         section_gap(c);
     }
     if (section(c, "Placement")) {

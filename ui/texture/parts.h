@@ -15,6 +15,8 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards);
 void suggested_together(Ctx& c, const std::vector<TextureCard>& cards);
 /// Filters by origin, licence and look.
 void texture_facets(Ctx& c);
+/// Painting on the surface in another program.
+void flat_controls(Ctx& c, const Region& region);
 /// Where the texture comes from.
 void provenance_section(Ctx& c, const Region& region);
 

@@ -90,6 +90,12 @@ void settings_window(Ctx& c) {
         if (std::abs(c.settings.ui_scale - scales[k]) < 0.01) scale = k;
     if (segments(c, "Scale", {"Auto", "100%", "125%", "150%", "200%"}, scale))
         c.settings.ui_scale = scales[scale];
+    ImGui::Dummy({0, t.px(6)});
+    quiet(c, "Paint program, by its command");
+    input(c, "Paint program", c.settings.paint_program,
+          c.view.paint_programs.empty() ? "krita, or /opt/…/program"
+                                        : c.view.paint_programs.front().command.c_str(),
+          t.px(300));
     ImGui::Dummy({0, t.px(10)});
     if (button(c, "Keyboard shortcuts…", {.icon = icons::kKeyboard})) {
         c.state.settings_open = false;

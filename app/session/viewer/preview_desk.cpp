@@ -74,6 +74,7 @@ PreviewRequest PreviewDesk::request_for(Project subject,
     request.overlay = overlay_;
     request.overlay_region = use_.selection.region;
     request.cards = cards;
+    request.files = files_;
     request.interactive = playback.direction() != 0;
     // The marked range, or else this many frames around the playhead.
     constexpr int kAround = 24;

@@ -1,6 +1,7 @@
 #pragma once
 // What the preview is asked for, and what of its results is shown.
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,8 @@ class PreviewDesk {
     void show_overlay(Overlay overlay) { set(overlay_, overlay); }
     void show_stages(bool shown) { set(stages_, shown); }
     void set_quality(Quality quality) { set(quality_, quality); }
+    /// Files of textures were written by others.
+    void show_files(std::uint64_t version) { set(files_, version); }
     /// Requests what is asked for, and `cards` after it. Call it in every update.
     void request(double now_s, const std::vector<CardRequest>& cards);
     /// Another document was opened: nothing of the one before is shown.
@@ -70,6 +73,7 @@ class PreviewDesk {
     std::optional<LayerKind> layer_;
     Overlay overlay_ = Overlay::kNone;
     Quality quality_ = Quality::kDraft;
+    std::uint64_t files_ = 0;
     std::optional<double> dragged_at_s_;  // of the last request, if it was for an edit being tried
     PreviewReading reading_;
     int read_frame_ = 0;
