@@ -319,7 +319,7 @@ void SurfaceWalker::advance_known(ViewU8x1 luma, ViewU8x1 visible, LatticeField 
 void SurfaceWalker::become_part() {
     State& s = *state_;
     s.is_part = true;
-    s.plane.refute();
+    if (s.plane.believed()) s.leave_plane(*s.last);
     s.first_px = s.largest_px = 0;
     s.steady_step = {};
     // No seam hides the change of a part's texture.
