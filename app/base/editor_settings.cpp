@@ -40,12 +40,12 @@ Json marked_json(const std::map<std::string, MarkedRange>& marked) {
 
 void take_marked(const Json& json, std::map<std::string, MarkedRange>& into) {
     if (!json.contains("marked") || !json.at("marked").is_object()) return;
+    const auto end_of = [](const Json& frame) {
+        return frame.is_number_integer() ? std::optional(frame.get<int>()) : std::nullopt;
+    };
     for (const auto& [project, range] : json.at("marked").items()) {
-        if (!range.is_array() || range.size() != 2) continue;
-        const auto end_of = [&](std::size_t k) {
-            return range[k].is_number_integer() ? std::optional(range[k].get<int>()) : std::nullopt;
-        };
-        into[project] = {end_of(0), end_of(1)};
+        if (range.is_array() && range.size() == 2)
+            into[project] = {end_of(range[0]), end_of(range[1])};
     }
 }
 

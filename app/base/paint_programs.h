@@ -18,8 +18,4 @@ struct PaintProgram {
 /// One that the user names by its command. OpenRaster where it is known to read that, else TIFF.
 [[nodiscard]] PaintProgram paint_program_of(const std::string& command);
 
-/// The file that a command starts: itself if it is a path, else the first of its name in $PATH.
-/// Empty: there is none that can be executed.
-[[nodiscard]] std::string find_program(const std::string& command);
-
 }  // namespace weft

@@ -73,8 +73,6 @@ CommandResult submit_command(const SubmitOptions& options);
 CommandResult task_command(const std::string& job, const std::string& stage, int index,
                            const RunOptions& given);
 CommandResult doctor_command(const std::string& assets);
-/// Returns true if $PATH has an executable of this name.
-[[nodiscard]] bool is_on_path(const std::string& program);
 /// `weft --version`: "weft 0.1.0 (commit abc1234), backends: cpu"
 Answer version_answer();
 

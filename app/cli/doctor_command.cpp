@@ -2,10 +2,10 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/base/find_program.h"
 #include "app/cli/commands.h"
 #include "engine/media/movies.h"
 #include "gpu/cuda_backend.h"
@@ -84,7 +84,7 @@ Finding display_finding() {
 }
 
 Finding slurm_finding() {
-    if (is_on_path("sbatch")) return {"Slurm", "sbatch found", ""};
+    if (!find_program("sbatch").empty()) return {"Slurm", "sbatch found", ""};
     return {"Slurm", "sbatch is not installed; weft submit --run cannot submit", "",
             Standing::kAbsent};
 }
@@ -102,17 +102,6 @@ std::string finding_line(const Finding& f) {
 }
 
 }  // namespace
-
-bool is_on_path(const std::string& program) {
-    const char* path = std::getenv("PATH");
-    std::string rest = path ? path : "";
-    while (!rest.empty()) {
-        const std::size_t colon = std::min(rest.find(':'), rest.size());
-        if (access((fs::path(rest.substr(0, colon)) / program).c_str(), X_OK) == 0) return true;
-        rest.erase(0, colon + 1);
-    }
-    return false;
-}
 
 CommandResult doctor_command(const std::string& assets) {
     std::string version = version_answer().text;

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 
+#include "app/base/find_program.h"
 #include "app/cli/commands.h"
 #include "app/exchange/collect.h"
 #include "app/exchange/kept_textures.h"
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Status submit_to_slurm(const std::string& folder) {
-    if (!is_on_path("sbatch"))
+    if (find_program("sbatch").empty())
         return fail(ErrorCode::kUsage, "sbatch is not available on this machine.",
                     "Run submit.sh on one that has it.");
     WEFT_TRY(child, start_process({"/bin/sh", (fs::path(folder) / "submit.sh").string()}, {}));

@@ -18,7 +18,7 @@ class FileWatching : public ::testing::Test {
     void SetUp() override { fs::create_directories(folder_); }
     void TearDown() override { fs::remove_all(folder_); }
     std::string write(const std::string& name, const std::string& text) {
-        const std::string path = (folder_ / name).string();
+        std::string path = (folder_ / name).string();
         std::ofstream(path) << text;
         return path;
     }

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/base/find_program.h"
+
 namespace weft {
 namespace {
 
@@ -16,11 +18,13 @@ class PaintPrograms : public ::testing::Test {
   protected:
     void SetUp() override {
         fs::create_directories(folder_);
+        // NOLINTBEGIN(concurrency-mt-unsafe)
         before_ = std::getenv("PATH");
         setenv("PATH", ("/no/such/folder:" + folder_.string()).c_str(), 1);
+        // NOLINTEND(concurrency-mt-unsafe)
     }
     void TearDown() override {
-        setenv("PATH", before_.c_str(), 1);
+        setenv("PATH", before_.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
         fs::remove_all(folder_);
     }
     std::string install(const std::string& name, bool executable = true) {

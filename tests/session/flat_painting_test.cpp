@@ -33,7 +33,7 @@ class FlatPaintingByActions : public test::SessionByActions {
         ASSERT_TRUE(wait([&] { return view().path == in("shot.weft") && !view().saving; }));
     }
     std::string script(const std::string& name, const std::string& text) {
-        const std::string path = in(name);
+        std::string path = in(name);
         std::ofstream(path) << "#!/bin/sh\n" << text << "\n";
         fs::permissions(path, fs::perms::owner_all);
         return path;
@@ -85,11 +85,11 @@ TEST_F(FlatPaintingByActions, WritesThePictureTakesItAndOpensIt) {
 }
 
 TEST_F(FlatPaintingByActions, GathersTheSurfaceByTheRealProgram) {
-    setenv("XDG_CACHE_HOME", in("cache").c_str(), 1);
+    setenv("XDG_CACHE_HOME", in("cache").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
     open_by(test::weft_program());
     act(PaintFlat{region().id, painter()});
     ASSERT_TRUE(wait([&] { return !opened().empty() || !view().flattening; }));
-    unsetenv("XDG_CACHE_HOME");
+    unsetenv("XDG_CACHE_HOME");  // NOLINT(concurrency-mt-unsafe)
     ASSERT_TRUE(wait([&] { return !opened().empty(); })) << view().notices.back().text;
     const auto written = read_image(in("shot_flat/the_wall.tif"));
     ASSERT_TRUE(written);

@@ -60,6 +60,7 @@ void flat_controls(Ctx& c, const Region& region) {
     c.note("Paint flat");
     if (programs.size() < 2) return;
     std::vector<std::string> names;
+    names.reserve(programs.size());
     for (const PaintProgram& one : programs)
         names.push_back(one.name);
     int chosen = 0;

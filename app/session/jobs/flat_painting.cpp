@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/base/detached_process.h"
+#include "app/base/find_program.h"
 #include "app/base/job_messages.h"
 #include "app/exchange/flat_picture.h"
 #include "app/exchange/move_project.h"
