@@ -151,7 +151,8 @@ void Session::Parts::advance(double now_s) {
     advance_mattes();
     textures_.take();
     flat_painting_.watch();
-    if (texture_files_.take()) preview_desk_.show_files(texture_files_.version());
+    view_.saved_textures = texture_files_.take();
+    if (!view_.saved_textures.empty()) preview_desk_.show_files(texture_files_.version());
     enter("preview");
     if (preview_desk_.pending() && !painting_.active())
         preview_desk_.request(now_s, strip_.requests());

@@ -230,6 +230,7 @@ struct SessionView {
     std::optional<SaveQuestion> save_question;  ///< AnswerSave answers it.
     std::optional<CollectView> collecting;
     std::optional<FlattenView> flattening;
+    std::vector<std::string> saved_textures;   ///< By other programs, since the last update().
     std::vector<PaintProgram> paint_programs;  ///< The chosen one first.
     QualityReport report;
     std::vector<std::string> recent;  ///< Project files, the newest first.

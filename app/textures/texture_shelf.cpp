@@ -131,6 +131,16 @@ PicturePtr TextureShelf::thumbnail(const std::string& path, int longest_px) {
     return nullptr;
 }
 
+void TextureShelf::forget_thumbnails(const std::string& path) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(kept_, [&](const auto& entry) {
+        const Kept& kept = entry.second;
+        if (entry.first != name_of(path, kept.longest_px)) return false;
+        if (kept.picture) bytes_ -= kept.picture->size_bytes();
+        return true;
+    });
+}
+
 TextureCard TextureShelf::details(const TextureCard& card) {
     return card.path.starts_with("db:") && library() ? looked_up(card) : card;
 }

@@ -145,6 +145,8 @@ class TextureShelf {
     /// Returns a thumbnail; null until it is ready. Visible items request theirs in every frame;
     /// the current ones are served first, in request order.
     [[nodiscard]] PicturePtr thumbnail(const std::string& path, int longest_px);
+    /// The file has been written anew: its thumbnails are made again when they are asked for.
+    void forget_thumbnails(const std::string& path);
     /// Ranks the library's textures for a region; `key` identifies everything that the result
     /// depends on.
     void suggest_for(const std::string& key, SurfaceQuery surface);

@@ -107,7 +107,14 @@ TEST_F(FlatPaintingByActions, ShowsWhatIsSaved) {
         return std::chrono::steady_clock::now() > end;  // as it is seen first
     }));
     fs::rename(picture("saved.tif", 0.1f), in("shot_flat/the_wall.tif"));
-    ASSERT_TRUE(wait([&] { return says("as it was saved just now"); }));
+    std::vector<std::string> saved;
+    ASSERT_TRUE(wait([&] {
+        const auto& now = view().saved_textures;
+        saved.insert(saved.end(), now.begin(), now.end());
+        return !saved.empty();
+    }));
+    EXPECT_EQ(saved, std::vector{in("shot_flat/the_wall.tif")});
+    EXPECT_TRUE(says("as it was saved just now"));
     ASSERT_TRUE(wait([&] { return view().result_current && view().result_picture != before; }));
     // In the middle of what was painted.
     const auto red_of = [](const Picture& p) {

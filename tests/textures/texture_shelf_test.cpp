@@ -163,6 +163,20 @@ TEST_F(TextureShelfTest, RepeatedRequestsMakeAThumbnailOnce) {
     EXPECT_EQ(arrivals_of([&] { return shelf_->thumbnail(path, 128) != nullptr; }), 1u);
 }
 
+TEST_F(TextureShelfTest, AFileThatIsWrittenAnewHasANewThumbnail) {
+    const std::string path = (folder_ / "painted.png").string();
+    const auto red = [&](float grey) {
+        fs::remove(path);
+        EXPECT_TRUE(write_image(path, ImageF3(64, 64, grey), {}, {.depth = PixelDepth::kU8}));
+        shelf_->forget_thumbnails(path);
+        PicturePtr picture;
+        arrivals_of([&] { return (picture = shelf_->thumbnail(path, 32)) != nullptr; });
+        return picture->at(16, 16).x;
+    };
+    EXPECT_NEAR(red(0.8f), 0.8f, 0.01f);
+    EXPECT_NEAR(red(0.2f), 0.2f, 0.01f);
+}
+
 TEST_F(TextureShelfTest, RepeatedRequestsLookUpDetailsOnce) {
     const TextureCard card = shelf_->cards()->front();
     EXPECT_EQ(arrivals_of([&] { return !shelf_->details(card).author.empty(); }), 1u);

@@ -122,6 +122,8 @@ std::vector<Action> Shell::draw(const SessionView& view) {
     items_.clear();
     state_.status.clear();
     if (state_.document != view.document) begin_document(state_, view.document);
+    for (const std::string& path : view.saved_textures)
+        textures_.forget_thumbnails(path);
     Ctx c{view,
           state_,
           settings_,

@@ -23,14 +23,14 @@ void TextureFiles::follow() {
     watch_.follow(std::move(paths));
 }
 
-bool TextureFiles::take() {
-    if (watch_.changes() == version_) return false;
-    const std::vector<std::string> saved = watch_.take();
+std::vector<std::string> TextureFiles::take() {
+    if (watch_.changes() == version_) return {};
+    std::vector<std::string> saved = watch_.take();
     version_ += saved.size();
     for (const std::string& path : saved)
         notices_.add(NoticeKind::kInfo, "Shows " + std::filesystem::path(path).filename().string() +
                                             " as it was saved just now.");
-    return !saved.empty();
+    return saved;
 }
 
 }  // namespace weft

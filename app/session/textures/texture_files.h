@@ -20,9 +20,8 @@ class TextureFiles {
 
     /// The document has changed: watches the textures that it has now.
     void follow();
-    /// Says what was saved. Returns true if there is something, so that it must be shown. Call it
-    /// in every update.
-    [[nodiscard]] bool take();
+    /// Says what was saved, and returns the files: they must be shown. Call it in every update.
+    [[nodiscard]] std::vector<std::string> take();
     /// Increases with every file that was saved, whether or not it was taken.
     [[nodiscard]] std::uint64_t changes() const { return watch_.changes(); }
     /// Increases with every file that was taken: which versions of the files are shown.
