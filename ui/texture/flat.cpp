@@ -51,7 +51,7 @@ void flat_controls(Ctx& c, const Region& region) {
                {.icon = icons::kBrush,
                 .enabled = !now && c.view.plate.state == PlateView::State::kOpen,
                 .tip = shows_picture
-                           ? "What you save there shows here within a second"
+                           ? "What you save there shows here a second or two later"
                            : "Writes this surface as one still picture, without its light and "
                              "what passes in front, and opens it. A logo, dirt or a repair that "
                              "you paint on it and save lies on the surface in every frame",
