@@ -103,7 +103,7 @@ TEST_F(FlatPaintingByActions, ShowsWhatIsSaved) {
     ASSERT_TRUE(wait([&] { return view().result_current; }));
     const PicturePtr before = view().result_picture;
     // As Krita saves: another file takes its place.
-    ASSERT_TRUE(wait([&, end = std::chrono::steady_clock::now() + std::chrono::milliseconds(600)] {
+    ASSERT_TRUE(wait([&, end = std::chrono::steady_clock::now() + std::chrono::milliseconds(1500)] {
         return std::chrono::steady_clock::now() > end;  // as it is seen first
     }));
     fs::rename(picture("saved.tif", 0.1f), in("shot_flat/the_wall.tif"));
