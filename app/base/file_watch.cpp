@@ -41,8 +41,12 @@ FileWatch::~FileWatch() {
 }
 
 void FileWatch::follow(std::vector<std::string> paths) {
-    const std::lock_guard lock(mutex_);
-    wanted_ = std::move(paths);
+    {
+        const std::lock_guard lock(mutex_);
+        wanted_ = std::move(paths);
+        ++asked_;
+    }
+    wake_.notify_all();
 }
 
 std::vector<std::string> FileWatch::take() {
@@ -55,6 +59,7 @@ void FileWatch::run() {
     std::map<std::string, Watched> files;
     std::unique_lock lock(mutex_);
     while (!ends_) {
+        const std::uint64_t asked = asked_;
         const std::vector<std::string> wanted = wanted_;
         lock.unlock();
         std::map<std::string, Watched> now;
@@ -73,7 +78,12 @@ void FileWatch::run() {
         lock.lock();
         written_.insert(written_.end(), written.begin(), written.end());
         changes_ += written.size();
-        wake_.wait_for(lock, kLooks, [this] { return ends_; });
+        const auto news = [&] { return ends_ || asked_ != asked; };
+        // Nothing to look at, nothing to wake up for.
+        if (wanted.empty())
+            wake_.wait(lock, news);
+        else
+            wake_.wait_for(lock, kLooks, news);
     }
 }
 

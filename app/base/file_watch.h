@@ -22,7 +22,7 @@ class FileWatch {
     FileWatch& operator=(const FileWatch&) = delete;
 
     /// The files from now on, by absolute path. Those that were watched before stay known as they
-    /// were; the others are known as they are found at the next look.
+    /// were; the others are known as they are found at once.
     void follow(std::vector<std::string> paths);
     /// The files that were written since the last call.
     [[nodiscard]] std::vector<std::string> take();
@@ -35,6 +35,7 @@ class FileWatch {
     std::mutex mutex_;
     std::condition_variable wake_;
     std::vector<std::string> wanted_, written_;
+    std::uint64_t asked_ = 0;  // calls of follow()
     bool ends_ = false;
     std::atomic<std::uint64_t> changes_{0};
     std::thread thread_;

@@ -31,7 +31,7 @@ enum class AnalysisKind : std::uint8_t {
     /// Between two references: the frame repeats the drawing of the frame before in time.
     kHeldBetween,
     kHidingFrames,  ///< Over how many frames a seam hides that a texture returned to its shape.
-    kLightSample,  ///< The plate as the shading estimate sees it (only while light is estimated).
+    kLightSample,   ///< The plate as the shading estimate sees it (only while light is estimated).
     kShading,
     kForm,          ///< At the reference frame, from the clip.
     kStillSurface,  ///< At the reference frame, what highlights move over.

@@ -64,7 +64,7 @@ void flat_controls(Ctx& c, const Region& region) {
     for (const PaintProgram& one : programs)
         names.push_back(one.name);
     int chosen = 0;
-    if (choice(c, "Paint program", names, chosen, "In which still pictures are opened"))
+    if (choice(c, "Paint program", names, chosen, "The program in which the picture is opened"))
         c.settings.paint_program = programs[static_cast<std::size_t>(chosen)].command;
 }
 

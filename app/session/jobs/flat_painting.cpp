@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <chrono>
 #include <filesystem>
 #include <utility>
@@ -53,6 +54,8 @@ struct FlatPainting::Run {
     pid_t child = -1;  // before it is started
 };
 
+FlatPainting::FlatPainting(Uses uses) : use_(std::move(uses)) {}
+
 FlatPainting::~FlatPainting() {
     stop();
 }
@@ -86,7 +89,8 @@ void FlatPainting::paint(const PaintFlat& action) {
         return use_.notices.add(NoticeKind::kWarning, "The surface of " + run_->region_name +
                                                           " is still being gathered.");
     use_.end_painting();
-    const std::string name = std::to_string(getpid());
+    // Of this window and this run: one that was stopped may still be ending.
+    const std::string name = std::to_string(getpid()) + "-" + std::to_string(++runs_);
     run_ = std::make_shared<Run>(
         Run{region->id, region->name, new_picture(*region, program), program, use_.document.id(),
             JobFiles((fs::path(use_.state_folder) / "flat").string(), name)});
@@ -116,7 +120,8 @@ void FlatPainting::begin(Run& run) {
         {kSettingNamesVariable, std::string(kAnswerFileVariable) + "=" + run.files.answer},
         run.files.progress, run.files.log);
     if (run.child > 0) return;
-    use_.notices.add(NoticeKind::kError, "Could not be started: " + use_.program);
+    use_.notices.add(NoticeKind::kError,
+                     "Could not be started: " + use_.program + ". Install Weft again.");
     stop();
 }
 
@@ -124,14 +129,18 @@ void FlatPainting::stop() {
     if (!run_) return;
     if (run_->child > 0) {
         kill(run_->child, SIGTERM);
-        opened_.push_back(run_->child);  // its end is waited for there
+        ending_.push_back({run_->child, run_});
     }
     run_->files.remove();
     run_.reset();
 }
 
 void FlatPainting::watch() {
-    std::erase_if(opened_, [](int id) { return waitpid(id, nullptr, WNOHANG) == id; });
+    std::erase_if(ending_, [](const Ending& one) {
+        if (waitpid(one.process, nullptr, WNOHANG) != one.process) return false;
+        if (one.stopped) one.stopped->files.remove();  // what it said in the end
+        return true;
+    });
     if (!run_ || run_->child <= 0) return;
     if (run_->document != use_.document.id()) return stop();  // of another shot
     int status = 0;
@@ -162,7 +171,9 @@ void FlatPainting::take_back(const Run& run) {
         return [this, id, picture, program, laid] {
             const Region* region = region_by_id(use_.document.project(), id);
             if (!region) return;
-            if (!laid) return use_.notices.add(NoticeKind::kError, laid.error().text());
+            if (!laid)
+                return use_.notices.add(NoticeKind::kError, fs::path(picture).filename().string() +
+                                                                ": " + laid.error().text());
             const std::string dir = use_.document.folder();
             const bool told = use_.document.project().color.texture_space.empty();
             const Region after =
@@ -179,8 +190,10 @@ void FlatPainting::open_in(const PaintProgram& program, const std::string& pictu
         start_detached({find_program(program.command), picture}, {}, "/dev/null", "/dev/null");
     const std::string file = fs::path(picture).filename().string();
     if (child <= 0)
-        return use_.notices.add(NoticeKind::kError, "Could not be started: " + program.command);
-    opened_.push_back(child);
+        return use_.notices.add(NoticeKind::kError, "Could not be started: " + program.command +
+                                                        ". Start it yourself and open " + picture +
+                                                        ".");
+    ending_.push_back({child, nullptr});
     use_.notices.add(NoticeKind::kGood, "Opened " + file + " in " + program.name +
                                             ". What you save there shows here. Neither crop nor "
                                             "scale it.");

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/base/editor_settings.h"
@@ -38,7 +37,7 @@ class FlatPainting {
         std::string program;       ///< The weft program.
         std::string state_folder;  ///< See editor_state_folder().
     };
-    explicit FlatPainting(Uses uses) : use_(std::move(uses)) {}
+    explicit FlatPainting(Uses uses);
     /// Ends what is being gathered; paint programs go on.
     ~FlatPainting();
 
@@ -62,7 +61,14 @@ class FlatPainting {
 
     Uses use_;
     std::shared_ptr<Run> run_;
-    std::vector<int> opened_;  // processes of paint programs that have not ended yet
+    int runs_ = 0;
+    // Processes that have not ended yet: of paint programs, and of runs that were stopped, whose
+    // files go then.
+    struct Ending {
+        int process;
+        std::shared_ptr<Run> stopped;
+    };
+    std::vector<Ending> ending_;
 };
 
 }  // namespace weft
