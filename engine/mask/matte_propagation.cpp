@@ -124,12 +124,16 @@ void MatteWalker::begin_again(ViewU8x3 next, const FlowField& measured, bool hid
     const Matte meant =
         hides ? Matte() : painted_sides({s.frame, s.last, next, measured, s.scale.unit_px()});
     if (meant.empty()) return;
+    const KeyExposure exposure = s.exposure;
     *this = MatteWalker(s.frame, meant, s.options);
+    state_->exposure = exposure;
     state_->at_key = false;
 }
 
-MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, ViewU8x1 in_front) {
+MatteEstimate MatteWalker::advance(ViewU8x3 shown, const FlowField& measured, ViewU8x1 in_front) {
     const Matte covered = hidden_part(in_front);
+    ImageU8x3 evened = state_->exposure.evened(shown, state_->frame, measured);
+    const ViewU8x3 frame = evened;
     begin_again(frame, measured, !covered.empty() || !state_->key_seen.empty());
     State& s = *state_;
     const FlowField behind =
@@ -182,7 +186,7 @@ MatteEstimate MatteWalker::advance(ViewU8x3 frame, const FlowField& measured, Vi
     s.late = s.scene.remember(s.seen_phi(), s.palette);
     if (!covered.empty()) s.late.clear();
     if (!s.lost.lost(s.phi)) s.palette.follow(frame, s.seen_phi(), s.scale.band_px);
-    s.frame = copy_of(frame);
+    s.frame = std::move(evened);
     s.last = std::move(matte);
     return s.estimate(s.last);
 }

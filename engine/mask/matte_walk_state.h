@@ -10,6 +10,7 @@
 #include "engine/mask/departure.h"
 #include "engine/mask/flat_fills.h"
 #include "engine/mask/followed.h"
+#include "engine/mask/key_exposure.h"
 #include "engine/mask/left_behind.h"
 #include "engine/mask/matte_propagation.h"
 #include "engine/mask/motion_return.h"
@@ -27,7 +28,7 @@ namespace weft {
 
 /// What a walk knows. Not thread-safe.
 struct MatteWalker::State {
-    ImageU8x3 frame;  ///< The last frame of the walk …
+    ImageU8x3 frame;  ///< The last frame of the walk, as exposed on the keyframe …
     ImageF1 phi;      ///< … and the signed distance of its matte's boundary, pixels.
     ImageU8x3 key_frame;
     ImageF1 key_phi;
@@ -48,6 +49,7 @@ struct MatteWalker::State {
     PartReturn part_lost;
     RestingScene scene;
     UnseenGround ground;
+    KeyExposure exposure = {};
     MotionSides sides = {};
     Uncovered uncovered = {};
     Newcomers newcomers = {};
