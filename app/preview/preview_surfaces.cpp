@@ -70,7 +70,7 @@ std::map<RegionId, Quad<float>> Preview::Impl::found_planes() const {
         if (plan.form_from != RegionPlan::FormFrom::kMotion)
             for (Vec2& corner : *corners)
                 corner += plan.form_amount_at(plan.reference_frames.front()) *
-                          (*form)->finding.belief * (*form)->at(corner);
+                          (*form)->finding.laid_share() * (*form)->at(corner);
         out[shot.project.regions[shot.region_index[k]]->id] = *corners;
     }
     return out;

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
-#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "engine/form/flat_places.h"
 
 namespace weft {
 namespace {
@@ -45,8 +45,6 @@ class Flattening {
     explicit Flattening(const MetricField& field);
     void solve();
     [[nodiscard]] const Eigen::VectorXd& places() const { return u_; }
-    /// du/dx of the first triangle of a cell: by pixel of the reference frame.
-    [[nodiscard]] Matrix2 slope(const Eigen::VectorXd& u, int i, int j) const;
 
   private:
     [[nodiscard]] int node(int i, int j) const { return j * nodes_.width + i; }
@@ -122,14 +120,6 @@ Matrix2 Flattening::slope_of(const Triangle& t, const Eigen::VectorXd& u) {
         out +=
             u.segment<2>(2 * t.node[static_cast<std::size_t>(k)]) * t.gradient.col(k).transpose();
     return out;
-}
-
-Matrix2 Flattening::slope(const Eigen::VectorXd& u, int i, int j) const {
-    const auto at = [&](int x, int y) -> Eigen::Vector2d { return u.segment<2>(2 * node(x, y)); };
-    Matrix2 out;
-    out.col(0) = at(i + 1, j) - at(i, j) + at(i + 1, j + 1) - at(i, j + 1);
-    out.col(1) = at(i, j + 1) - at(i, j) + at(i + 1, j + 1) - at(i + 1, j);
-    return out / (2.0 * spacing_);
 }
 
 // Two rows for a node: its place's x and y. The lower half is stored.
@@ -263,70 +253,17 @@ void Flattening::solve() {
     }
 }
 
-// Which cells say where the result is to lie.
-std::function<bool(int, int)> anchors(const MetricField& field) {
-    const auto inside = [&field](int i, int j) {
-        return field.evidence(i, j) > 0 && field.in_frame(i, j);
-    };
-    for (int j = 0; j < field.cells().height; ++j)
-        for (int i = 0; i < field.cells().width; ++i)
-            if (inside(i, j)) return inside;
-    return [&field](int i, int j) { return field.evidence(i, j) > 0; };
-}
-
-// Turns, scales and moves the places as flat_from_reference() says.
-void normalise(const MetricField& field, const Flattening& flat, Eigen::VectorXd& u, int columns) {
-    std::complex<double> turn = 0;
-    std::vector<double> areas;
-    Eigen::Vector2d was = Eigen::Vector2d::Zero(), is = Eigen::Vector2d::Zero();
-    const double spacing = field.spacing();
-    const auto counts = anchors(field);
-    for (int j = 0; j < field.cells().height; ++j) {
-        for (int i = 0; i < field.cells().width; ++i) {
-            if (!counts(i, j)) continue;
-            const Matrix2 s = flat.slope(u, i, j);
-            // The rotation of its polar decomposition.
-            const std::complex<double> r(s(0, 0) + s(1, 1), s(1, 0) - s(0, 1));
-            turn += r / std::max(std::sqrt(std::norm(r)), 1e-12);
-            areas.push_back(s.determinant());
-            was += spacing * Eigen::Vector2d(i + 0.5, j + 0.5);
-            for (const int k : {j * columns + i, j * columns + i + 1, (j + 1) * columns + i,
-                                (j + 1) * columns + i + 1})
-                is += 0.25 * u.segment<2>(2 * k);
-        }
-    }
-    const auto count = static_cast<double>(areas.size());
-    const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
-    std::nth_element(areas.begin(), middle, areas.end());
-    const std::complex<double> back = std::conj(turn) /
-                                      std::max(std::sqrt(std::norm(turn)), 1e-12) /
-                                      std::sqrt(std::max(*middle, 1e-12));
-    for (Eigen::Index k = 0; k < u.size(); k += 2) {
-        const std::complex<double> v =
-            back * std::complex<double>(u[k] - is.x() / count, u[k + 1] - is.y() / count);
-        u[k] = v.real() + was.x() / count;
-        u[k + 1] = v.imag() + was.y() / count;
-    }
-}
-
 }  // namespace
 
 FormMap flat_from_reference(const MetricField& field) {
     Flattening flat(field);
     flat.solve();
-    Eigen::VectorXd u = flat.places();
-    LatticeField out(field.domain().size(), field.spacing());
-    normalise(field, flat, u, out.nodes().width());
-    for (int j = 0; j < out.nodes().height(); ++j) {
-        for (int i = 0; i < out.nodes().width(); ++i) {
-            const Eigen::Index k = 2 * (static_cast<Eigen::Index>(j) * out.nodes().width() + i);
-            out.set_node(i, j,
-                         {static_cast<float>(u[k] - static_cast<double>(i) * field.spacing()),
-                          static_cast<float>(u[k + 1] - static_cast<double>(j) * field.spacing())});
-        }
-    }
-    return {Vec2(static_cast<float>(field.domain().x0), static_cast<float>(field.domain().y0)),
-            std::move(out)};
+    const Eigen::VectorXd& u = flat.places();
+    std::vector<glm::dvec2> places;
+    places.reserve(static_cast<std::size_t>(u.size()) / 2);
+    for (Eigen::Index k = 0; k < u.size(); k += 2)
+        places.emplace_back(u[k], u[k + 1]);
+    return form_of_places(field, std::move(places));
 }
 
 }  // namespace weft

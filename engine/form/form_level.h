@@ -11,4 +11,8 @@ namespace weft {
 /// directions, each by its length there. Others of `strokes` do not count.
 void turn_level(FormMap& form, const std::vector<FormGuide>& strokes, Vec2 centre);
 
+/// Turns it so that a row or a column runs along `direction` there, a direction of the picture: by
+/// at most an eighth of a turn.
+void turn_square(FormMap& form, Vec2 centre, Vec2 direction);
+
 }  // namespace weft

@@ -24,6 +24,8 @@ struct FormFinding {
     float fov_error_deg = 0;                 ///< 0: not known, or not asked.
     std::uint8_t fov_regions = 0;  ///< Of the shot, whose motion decided it together; 0: its own.
     bool no_parallax = false;      ///< The camera only turns or zooms, so motion tells no form.
+    /// How much of the displacement is to be laid: a plane is found as far tilted as is believed.
+    [[nodiscard]] float laid_share() const { return plane ? 1 : belief; }
     bool operator==(const FormFinding&) const = default;
 };
 

@@ -19,7 +19,7 @@ constexpr double kMostSceneLines = 60, kMostOwnLines = 40;  // that count for th
 constexpr double kSceneEvidence = 6;                        // ln, next to no frame at all
 constexpr double kNoScene = 0.1;                            // believed before, next to a scene
 constexpr double kUnlikely = 1e-3;                          // of the belief
-constexpr double kPlaces = 400;                             // of the matte
+constexpr double kMattePlaces = 400;                        // of the matte
 constexpr double kBeyond = 0.01;         // of the matte that may lie beyond the horizon
 constexpr double kLeastNearness = 0.02;  // of that in the middle
 constexpr double kLeastCosine = 0.05;
@@ -29,20 +29,20 @@ constexpr double kLeastCosine = 0.05;
 constexpr double kAligned = 0.6, kTurned = 0.2, kOther = 0.2, kCurved = 0.05, kBox = 0.01;
 constexpr double kTurnError = std::numbers::pi / 180;  // of a plane turned about an axis, radians
 
-// Places of a matte, and where they are from the picture's centre in long sides.
-struct Places {
+// MattePlaces of a matte, and where they are from the picture's centre in long sides.
+struct MattePlaces {
     std::vector<Vec2> pixels;
     std::vector<glm::dvec2> rays;
     RigidSurface flat;  // faces the camera
 };
 
-Places places_of(ViewU8x1 matte) {
-    Places out;
+MattePlaces matte_places(ViewU8x1 matte) {
+    MattePlaces out;
     double count = 0;
     for (int y = 0; y < matte.height(); ++y)
         count += static_cast<double>(std::count_if(matte.row(y), matte.row(y) + matte.width(),
                                                    [](auto v) { return v >= 128; }));
-    const int step = std::max(1, static_cast<int>(std::sqrt(count / kPlaces)));
+    const int step = std::max(1, static_cast<int>(std::sqrt(count / kMattePlaces)));
     glm::dvec2 sum(0);
     for (int y = step / 2; y < matte.height(); y += step) {
         for (int x = step / 2; x < matte.width(); x += step) {
@@ -69,12 +69,12 @@ double nearness_at(const glm::dvec3& normal, double tangent, glm::dvec2 ray) {
     return tangent * (normal.x * ray.x + normal.y * ray.y) + normal.z;
 }
 
-glm::dvec2 centre_ray(const Places& places) {
+glm::dvec2 centre_ray(const MattePlaces& places) {
     return glm::dvec2(places.flat.centre - places.flat.middle) / places.flat.long_side;
 }
 
 // Whether the matte shows one side of the plane only.
-bool shows(const Places& places, const glm::dvec3& normal, double tangent) {
+bool shows(const MattePlaces& places, const glm::dvec3& normal, double tangent) {
     const double middle = nearness_at(normal, tangent, centre_ray(places));
     if (!(std::abs(middle) > 1e-6)) return false;
     std::size_t beyond = 0;
@@ -84,13 +84,13 @@ bool shows(const Places& places, const glm::dvec3& normal, double tangent) {
 }
 
 // The cosine at which the matte's middle is seen.
-double cosine_of(const Places& places, const ManhattanFrame& frame) {
+double cosine_of(const MattePlaces& places, const ManhattanFrame& frame) {
     const glm::dvec2 r = centre_ray(places);
     const glm::dvec3 ray(frame.tangent * r.x, frame.tangent * r.y, 1);
     return std::abs(glm::dot(frame.axes[2], unit(ray)));
 }
 
-RigidSurface surface_of(const Places& places, const ManhattanFrame& frame) {
+RigidSurface surface_of(const MattePlaces& places, const ManhattanFrame& frame) {
     RigidSurface out = places.flat;
     const glm::dvec3 n = frame.axes[2];
     const double middle = nearness_at(n, frame.tangent, centre_ray(places));
@@ -99,6 +99,17 @@ RigidSurface surface_of(const Places& places, const ManhattanFrame& frame) {
     out.slope_x = n.x * by;
     out.slope_y = n.y * by;
     return out;
+}
+
+// Where the picture shows a direction, at the matte's middle; the longer of a frame's two.
+Vec2 along_in_picture(const MattePlaces& places, const ManhattanFrame& frame) {
+    const glm::dvec2 ray = frame.tangent * centre_ray(places);
+    const auto seen = [&](const glm::dvec3& axis) {
+        return glm::dvec2(axis.x - ray.x * axis.z, axis.y - ray.y * axis.z);
+    };
+    const glm::dvec2 a = seen(frame.axes[0]), b = seen(frame.axes[1]);
+    const glm::dvec2 longer = glm::dot(a, a) >= glm::dot(b, b) ? a : b;
+    return Vec2(longer / std::sqrt(std::max(glm::dot(longer, longer), 1e-12)));
 }
 
 // A plane that may be it, with ln of how likely it is.
@@ -114,7 +125,7 @@ ManhattanFrame with_normal(const ManhattanFrame& frame, int axis) {
 }
 
 std::vector<Candidate> candidates_of(const ScenePerspective& scene, const ManhattanLines& lines,
-                                     const Places& places) {
+                                     const MattePlaces& places) {
     std::vector<Candidate> out;
     const auto add = [&](const ManhattanFrame& frame, const FrameMatrix& covariance,
                          double before) {
@@ -164,7 +175,7 @@ struct Squares {
     double stretch = 0, tilt = 0, tangent = 0;
 };
 
-Squares errors_of(const Candidate& at, const Places& places) {
+Squares errors_of(const Candidate& at, const MattePlaces& places) {
     Matrix4 covariance;
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j)
@@ -238,7 +249,7 @@ ScenePerspective scene_perspective(const std::vector<PictureLine>& lines, Size p
 
 std::optional<PictureFit> plane_in_picture(const ScenePerspective& scene,
                                            const std::vector<PictureLine>& lines, ViewU8x1 matte) {
-    const Places places = places_of(matte);
+    const MattePlaces places = matte_places(matte);
     if (places.pixels.empty()) return std::nullopt;
     const Size picture = matte.size();
     const ManhattanLines evidence(thinned(lines, picture), picture, 2, kMostOwnLines);
@@ -255,6 +266,7 @@ std::optional<PictureFit> plane_in_picture(const ScenePerspective& scene,
     const Candidate& chosen = candidates[best];
     PictureFit out;
     out.surface = surface_of(places, chosen.frame);
+    out.along = along_in_picture(places, chosen.frame);
     out.tilt_deg = tilt_of(out.surface);
     out.fov_deg = fov_of_tangent(out.surface.tangent, picture);
     out.explained = evidence.explained(chosen.frame);

@@ -26,8 +26,9 @@ struct ScenePerspective {
 /// A plane that explains a surface's lines, and how far that is to be believed; see RigidFit.
 struct PictureFit {
     RigidSurface surface;
-    double belief = 0;                  ///< How much of the form is likely to be there, 0–1.
-    double log_stretch = 0, error = 0;  ///< ln stretch of the flat picture, its error.
+    Vec2 along{1, 0};   ///< At its centre, px: a direction of the picture in which its lines run.
+    double belief = 0;  ///< How much of the form is likely to be there, 0–1.
+    double log_stretch = 0, error = 0;        ///< ln stretch of the flat picture, its error.
     double tilt_deg = 0, tilt_error_deg = 0;  ///< At the centre, against the picture.
     double fov_deg = 0, fov_error_deg = 0;    ///< Horizontal.
     double explained = 0;                     ///< The share of its lines, by weight.

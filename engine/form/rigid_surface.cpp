@@ -76,4 +76,11 @@ Metric RigidSurface::metric(Vec2 place) const {
     return {dot(x, x), dot(x, y), dot(y, y)};
 }
 
+SeenPlane RigidSurface::plane(double share) const {
+    const double focal = long_side / tangent;
+    const double x = share * slope_x / radius, y = share * slope_y / radius;  // by pixel
+    const glm::dvec2 off = glm::dvec2(middle) - glm::dvec2(centre);
+    return {{x * focal, y * focal, 1 + x * off.x + y * off.y}, {focal, middle}};
+}
+
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/core/geometry.h"
+#include "engine/form/flat_plane.h"
 #include "engine/form/metric_field.h"
 
 namespace weft {
@@ -31,6 +32,8 @@ struct RigidSurface {
     [[nodiscard]] double nearness(Vec2 place) const;
     /// The first fundamental form at a place; not positive definite where ρ ≤ 0.
     [[nodiscard]] Metric metric(Vec2 place) const;
+    /// The plane that it is without its relief, its slopes times `share`, 0 to 1: less tilted.
+    [[nodiscard]] SeenPlane plane(double share) const;
 };
 
 }  // namespace weft

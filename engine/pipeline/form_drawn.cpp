@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "engine/core/setting.h"
 #include "engine/form/drawn_form.h"
+#include "engine/form/flat_plane.h"
 #include "engine/form/flatten.h"
 #include "engine/form/form_level.h"
 #include "engine/form/form_relief.h"
 #include "engine/mask/matte_box.h"
+#include "engine/pipeline/form_laid.h"
 #include "engine/pipeline/plate_views.h"
 
 namespace weft {
@@ -38,6 +41,20 @@ Recti domain_of(const Recti& box, Size plate, bool plane) {
     return box.grown(plane ? std::min(plates / 2, side) : std::min(plates / 2, side / 4 + 8));
 }
 
+FormMap laid(const DrawnSurface& surface, const MetricField& field, const Matte& visible) {
+    if (!surface.is_plane()) return flat_from_reference(field);
+    const SeenPlane plane{std::get<DrawnPlane>(surface.body).normal, surface.camera};
+    double least = std::numeric_limits<double>::infinity();
+    for (int y = 0; y < visible.height(); ++y) {
+        for (int x = 0; x < visible.width(); ++x) {
+            const Vec2 at = centre_of_pixel(x, y);
+            if (visible.row(y)[x] >= 128 && surface.metric(at))
+                least = std::min(least, plane.nearness(at));
+        }
+    }
+    return flat_plane(plane, kGoesOn * least, field);
+}
+
 }  // namespace
 
 Expected<FormMap> form_from_drawing(const FormEvidence& evidence, Size plate,
@@ -54,7 +71,7 @@ Expected<FormMap> form_from_drawing(const FormEvidence& evidence, Size plate,
         return fail(ErrorCode::kUsage,
                     "The region shows too little of the shape on its reference frame.",
                     "Draw it over the surface" + by({{setting::kFormShape}}) + ".");
-    FormMap out = flat_from_reference(field);
+    FormMap out = laid(surface, field, evidence.visible);
     out.finding = {FormFinding::Source::kShape,
                    surface.is_plane(),
                    1,

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/form/flat_plane.h"
 #include "engine/form/flatten.h"
 #include "engine/form/form_relief.h"
 #include "engine/form/pulled_back.h"
@@ -13,9 +14,6 @@ namespace weft {
 namespace {
 
 constexpr double kLeastNearness = 0.04;  // of a plane towards its horizon
-// A plane goes on for that share of the least nearness seen: what is further is the horizon, whose
-// areas would outweigh all that is seen.
-constexpr double kFurther = 0.6;
 
 // Adds the surface at the places that a frame shows of it. Returns the least nearness of them.
 double add_places(MetricField& field, const RigidSurface& surface, const FormEvidence& at,
@@ -52,7 +50,7 @@ FormMap laid_flat(const RigidSurface& surface, const FormFinding& finding,
     if (finding.plane) {
         for (std::size_t k = 1; k < evidence.size(); ++k)
             least = std::min(least, add_places(field, surface, evidence[k], kOtherFrames));
-        least *= kFurther;
+        least *= kGoesOn;
         beyond = [&surface, least](Vec2 place) {
             return surface.nearness(place) >= least ? std::optional(surface.metric(place))
                                                     : std::nullopt;
@@ -63,7 +61,8 @@ FormMap laid_flat(const RigidSurface& surface, const FormFinding& finding,
         none.source = FormFinding::Source::kNone;
         return flat_over(plate, none);
     }
-    FormMap out = flat_from_reference(field);
+    FormMap out = finding.plane ? flat_plane(surface.plane(finding.belief), least, field)
+                                : flat_from_reference(field);
     out.finding = finding;
     add_relief(out, field, static_cast<double>(finding.fov_deg), plate, finding.plane);
     return out;

@@ -9,12 +9,17 @@
 
 namespace weft {
 
+/// A plane goes on for that share of the least nearness seen: what is further is the horizon, whose
+/// areas would outweigh all that is seen.
+inline constexpr double kGoesOn = 0.6;
+
 /// A form that changes nothing.
 [[nodiscard]] FormMap flat_over(Size plate, const FormFinding& finding);
 
 /// The surface at the places that the evidence shows of it, the reference frame's first; a plane is
-/// known beyond them too, but towards its horizon. `finding` says whether it is one, and the field
-/// of view. Empty if no place shows it. Thread-safe.
+/// known beyond them too, but towards its horizon, and is laid as one homography, tilted as far as
+/// it is believed. `finding` says whether it is one, and the field of view. Empty if no place shows
+/// it. Thread-safe.
 [[nodiscard]] FormMap laid_flat(const RigidSurface& surface, const FormFinding& finding,
                                 const std::vector<FormEvidence>& evidence, Size plate);
 

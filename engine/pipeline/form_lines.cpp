@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/form/form_level.h"
 #include "engine/form/plane_in_picture.h"
 #include "engine/pipeline/form_laid.h"
 #include "engine/pipeline/plate_views.h"
@@ -55,7 +56,9 @@ Expected<FormMap> form_from_lines(const PassContext& context, int region,
     const auto fit = plane_in_picture(scene, lines_on(lines, visible), visible);
     const double least = seems_to_bend(moved.finding) ? kBeliefOfMoving : kLeastBelieved;
     if (!fit || !fit->holds(least)) return moved;
-    return laid_flat(fit->surface, finding_of(*fit, lens), evidence, visible.size());
+    FormMap out = laid_flat(fit->surface, finding_of(*fit, lens), evidence, visible.size());
+    turn_square(out, fit->surface.centre, fit->along);
+    return out;
 }
 
 }  // namespace weft

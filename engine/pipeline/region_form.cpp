@@ -21,7 +21,7 @@ Expected<std::shared_ptr<const SurfaceForm>> region_form(const RegionPlan& regio
     if (!found) return Laid(nullptr);
     // With keys the frame says how much of it (mapping_on()).
     const float amount = region.form_amount_keys.empty() ? region.form_amount : 1.0f;
-    return Laid(std::make_shared<LatticeForm>(*found, amount * found->finding.belief));
+    return Laid(std::make_shared<LatticeForm>(*found, amount * found->finding.laid_share()));
 }
 
 Expected<ShownForm> region_form_on(const RegionScene& scene, const AnalysisStore& store, int index,
