@@ -112,9 +112,6 @@ void add_lines(const StepFrame& prev, const StepFrame& cur, const FlowField& pre
     if (out.lines_lead != 0) out.lines_lead += against_outline(occluded, kMostOfIt);
 }
 
-// Little structure for one pixel, less than this: faint plaster and a flat fill have as little.
-constexpr float kStandsOut = 1.25f;
-
 }  // namespace
 
 void add_outline(const StepFrame& prev, const StepFrame& cur, const FlowField& prev_from_cur,

@@ -14,6 +14,10 @@ namespace weft {
 /// speckle is new in each frame, leads by -2.9 to 0.6, flat drawn fills by -5 to 0.4.)
 constexpr double kOfTheFit = 2.6;
 
+/// Little structure for one pixel, less than this (structure_to_noise()): faint plaster and a flat
+/// fill have as little.
+constexpr float kStandsOut = 1.25f;
+
 /// prev_from_cur as the outlines of the two frames have it. Pure.
 [[nodiscard]] LatticeField outline_motion(const StepFrame& prev, const StepFrame& cur,
                                           int spacing_px);

@@ -190,6 +190,7 @@ float add_picture(const StepFrame& prev, const StepFrame& cur, const FlowField& 
         structure_to_noise(now.luma, now.visible, before.luma, before.visible, prev_from_cur);
     // A drawn fill shows no parts (0.0), a figure on a large, soft plate does (0.9 to 1.2).
     constexpr float kShowsParts = 0.8f;
+    out.faint = structure < kStandsOut;
     if (structure >= kShowsParts) out.parts = find_moving_parts(prev_from_cur, now.visible);
     return structure;
 }

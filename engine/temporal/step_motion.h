@@ -76,6 +76,8 @@ struct StepEvidence {
     std::shared_ptr<const FlowField> raw = {};
     /// What the outline adds to this, where nobody has asked for it yet; else null.
     std::shared_ptr<const OutlineEvidence> open = {};
+    /// Whether there is so little structure inside that the picture may show light alone.
+    bool faint = false;
 };
 
 /// How far motion that was fitted to two pictures leads before the outline's, in standard errors
