@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "engine/core/block_means.h"
 #include "engine/core/luma.h"
@@ -18,6 +19,7 @@
 #include "engine/mask/scene_pieces.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/motion/plane_fit.h"
+#include "engine/motion/resting_view.h"
 
 namespace weft {
 namespace {
@@ -36,6 +38,7 @@ RestingScene::RestingScene(ViewU8x3 key_frame, ViewF1 key_phi)
     : scale_(key_frame.size()),
       key_area_px_(area_of(key_phi)),
       places_(scale_.size),
+      key_luma_(luma_codes(key_frame)),
       now_(reduced_floats(key_frame, scale_.step)),
       gain_(scale_.size, 1.0f),
       moving_(scale_.size),
@@ -83,11 +86,38 @@ ImageF1 RestingScene::expected_luma() const {
     return out;
 }
 
-void RestingScene::move(const FlowField& prev_from_cur, ViewF1 phi) {
+// What is blank says nothing of its motion; what is measured there is that of what passes.
+bool RestingScene::rests_as_on_key(ViewU8x3 frame, ViewF1 phi) const {
+    Matte inside(phi.size());
+    for (int y = 0; y < inside.height(); ++y)
+        for (int x = 0; x < inside.width(); ++x)
+            inside.at(x, y) = phi.row(y)[x] > 0 ? 255 : 0;
+    return rests_in_view(key_luma_, luma_codes(frame), inside);
+}
+
+// Nothing moves by which nothing changes.
+void RestingScene::keep_resting(const ImageF3& before, Matte moving) {
+    for (int y = 0; y < moving.height(); ++y) {
+        for (int x = 0; x < moving.width(); ++x) {
+            const float change = color_difference(color_at(now_, x, y), color_at(before, x, y));
+            if (change < kMatches * noise_levels_) moving.at(x, y) = 0;
+        }
+    }
+    moving_ = std::move(moving);
+    key_from_cur_ = glm::dmat3(1);
+    fits_ = true;
+}
+
+void RestingScene::move(ViewU8x3 frame, const FlowField& prev_from_cur, ViewF1 phi) {
     // What comes close in front may fill most of the surroundings for a while.
     constexpr float kInFront = 0.25f;
+    const ImageF3 before = std::exchange(now_, reduced_floats(frame, scale_.step));
     SceneStep step = scene_step(prev_from_cur, phi, scale_);
     fits_ = step.surface == SceneMotion::kRests && step.around == SceneMotion::kRests;
+    if (!fits_ && !step.moving.empty() && rests_as_on_key(frame, phi)) {
+        keep_resting(before, std::move(step.moving));
+        return;
+    }
     if (step.surface == SceneMotion::kMoves)
         against_ += 1;
     else if (step.around == SceneMotion::kMoves)
@@ -283,8 +313,7 @@ Matte RestingScene::corrected(ViewU8x3 frame, ViewF1 phi, const FlowField& prev_
                               const SurfacePalette& palette) {
     constexpr float kRefuted = 4;
     if (!rests_) return {};
-    now_ = reduced_floats(frame, scale_.step);
-    move(prev_from_cur, phi);
+    move(frame, prev_from_cur, phi);
     Matte change;
     if (fits_) change = explain(phi, palette);
     rests_ = against_ < kRefuted;

@@ -73,7 +73,9 @@ class RestingScene {
     [[nodiscard]] double leaving_blocks(const Matte& change, ViewF1 phi) const;
     void see_places(ViewF1 phi);
     [[nodiscard]] std::vector<Matte> found_late(ViewF1 phi, const SurfacePalette& palette);
-    void move(const FlowField& prev_from_cur, ViewF1 phi);
+    void move(ViewU8x3 frame, const FlowField& prev_from_cur, ViewF1 phi);
+    [[nodiscard]] bool rests_as_on_key(ViewU8x3 frame, ViewF1 phi) const;
+    void keep_resting(const ImageF3& before, Matte moving);
     void stay_on_place(ViewF1 phi, const ImageF1& luma);
     void compare();
     void measure_noise(ViewF1 phi);
@@ -83,6 +85,7 @@ class RestingScene {
     double key_area_px_;
     ScenePlaces places_;
     ScenePast past_ = {};
+    Matte key_luma_;          // of all pixels of the keyframe
     ImageF3 now_;             // the frame
     ImageF1 gain_;            // how much brighter it is than the keyframe
     Matte moving_;            // what moves otherwise than the scene

@@ -1,10 +1,13 @@
 #include "engine/mask/scene_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "engine/core/block_means.h"
 #include "engine/core/luma.h"
+#include "engine/core/parallel.h"
 
 namespace weft {
 
@@ -25,6 +28,19 @@ ImageF1 luma_of(const ImageF3& picture) {
     for (int y = 0; y < out.height(); ++y)
         for (int x = 0; x < out.width(); ++x)
             out.at(x, y) = luma_709(picture.pixel(x, y));
+    return out;
+}
+
+Matte luma_codes(ViewU8x3 frame) {
+    Matte out(frame.size());
+    parallel_rows(out.height(), 32, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            const std::uint8_t* p = frame.row(y);
+            for (int x = 0; x < out.width(); ++x, p += 3)
+                out.at(x, y) = static_cast<std::uint8_t>(std::lround(luma_709(
+                    static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]))));
+        }
+    });
     return out;
 }
 

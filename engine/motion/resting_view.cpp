@@ -1,0 +1,157 @@
+#include "engine/motion/resting_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace weft {
+namespace {
+
+constexpr int kPatchReach = 3;  // px, of a patch to either side of its middle
+constexpr int kBeside = 2;      // px, at which a patch must fit less well
+constexpr int kPatchMargin = kPatchReach + kBeside + 1;
+
+// A patch of both frames: its means, deviations and their product, in 8-bit levels.
+struct Pair {
+    double mean_a = 0, mean_b = 0, square_a = 0, square_b = 0, product = 0;
+
+    [[nodiscard]] double correlation() const {
+        return product / std::sqrt(std::max(square_a * square_b, 1e-9));
+    }
+};
+
+Pair pair_at(ViewU8x1 a, ViewU8x1 b, Vec2i at_a, Vec2i at_b) {
+    constexpr int kCount = (2 * kPatchReach + 1) * (2 * kPatchReach + 1);
+    int sum_a = 0, sum_b = 0, squares_a = 0, squares_b = 0, products = 0;
+    for (int y = -kPatchReach; y <= kPatchReach; ++y) {
+        const std::uint8_t *pa = a.row(at_a.y + y) + at_a.x, *pb = b.row(at_b.y + y) + at_b.x;
+        for (int x = -kPatchReach; x <= kPatchReach; ++x) {
+            sum_a += pa[x], squares_a += pa[x] * pa[x];
+            sum_b += pb[x], squares_b += pb[x] * pb[x];
+            products += pa[x] * pb[x];
+        }
+    }
+    const double n = kCount, mean_a = sum_a / n, mean_b = sum_b / n;
+    return {mean_a, mean_b, squares_a / n - mean_a * mean_a, squares_b / n - mean_b * mean_b,
+            products / n - mean_a * mean_b};
+}
+
+enum class Rest : std::uint8_t {
+    kRests,
+    kMoved,
+    kBlank,   // nothing tells
+    kChanged  // nothing tells, but it has another level
+};
+
+// Whether a place shows on both frames the same.
+class PlaceTest {
+  public:
+    PlaceTest(ViewU8x1 anchor, ViewU8x1 cur) : anchor_(anchor), cur_(cur) {}
+
+    [[nodiscard]] bool covers(Vec2i at) const {
+        return at.x >= kPatchMargin && at.y >= kPatchMargin && at.x < cur_.width() - kPatchMargin &&
+               at.y < cur_.height() - kPatchMargin;
+    }
+    // `sharply`: better than beside it, in every direction that its structure tells.
+    [[nodiscard]] Rest at(Vec2i place, bool sharply) const {
+        constexpr double kStructure = 4 * 4, kSame = 0.8, kWorse = 0.05, kBetter = 0.005;
+        constexpr double kSameLevel = 6;
+        const Pair here = pair_at(anchor_, cur_, place, place);
+        if (std::min(here.square_a, here.square_b) < kStructure)
+            return std::abs(here.mean_a - here.mean_b) < kSameLevel ? Rest::kBlank : Rest::kChanged;
+        const double same = here.correlation();
+        if (same < kSame) return Rest::kMoved;
+        if (!sharply) return Rest::kRests;
+        double worst = same, best = -1;
+        for (const Vec2i by : {Vec2i(kBeside, 0), {-kBeside, 0}, {0, kBeside}, {0, -kBeside}}) {
+            const double beside = pair_at(anchor_, cur_, place + by, place).correlation();
+            worst = std::min(worst, beside);
+            best = std::max(best, beside);
+        }
+        if (best > same + kBetter) return Rest::kMoved;
+        return worst < same - kWorse ? Rest::kRests : Rest::kBlank;
+    }
+
+  private:
+    ViewU8x1 anchor_, cur_;
+};
+
+bool camera_rests(const PlaceTest& test, Size size) {
+    constexpr int kStep = 6, kFewest = 8;
+    constexpr double kGoodPart = 0.15;
+    int rest = 0, moved = 0;
+    for (int y = kPatchMargin; y < size.height - kPatchMargin; y += kStep) {
+        for (int x = kPatchMargin; x < size.width - kPatchMargin; x += kStep) {
+            const Rest found = test.at({x, y}, true);
+            rest += found == Rest::kRests;
+            moved += found == Rest::kMoved;
+        }
+    }
+    return rest >= kFewest && rest >= kGoodPart * (rest + moved);
+}
+
+// Whether half of the surface or more has structure that is not where it was.
+bool changes_inside(const PlaceTest& test, ViewU8x1 visible) {
+    constexpr int kStep = 6;
+    int all = 0, moved = 0;
+    for (int y = kPatchMargin; y < visible.height() - kPatchMargin; y += kStep) {
+        for (int x = kPatchMargin; x < visible.width() - kPatchMargin; x += kStep) {
+            if (visible.at(x, y) < 128) continue;
+            ++all;
+            moved += test.at({x, y}, false) == Rest::kMoved;
+        }
+    }
+    return 2 * moved > all;
+}
+
+// The outward direction of a matte's edge.
+Vec2 outwards(ViewU8x1 matte, Vec2i at) {
+    constexpr int kAround = 4;
+    Vec2 sum(0);
+    for (int y = -kAround; y <= kAround; ++y)
+        for (int x = -kAround; x <= kAround; ++x)
+            if (matte.at(at.x + x, at.y + y) < 128) sum += Vec2(x, y);
+    const float length = glm::length(sum);
+    return length > 0 ? sum / length : Vec2(0);
+}
+
+// Of the surface's edge: places that rest, and places that do not though what is beyond them does.
+struct EdgeCount {
+    int rests = 0, moved = 0;
+};
+
+EdgeCount edge_of(const PlaceTest& test, ViewU8x1 visible) {
+    constexpr float kAway_px = 7;
+    EdgeCount out;
+    for (int y = kPatchMargin; y < visible.height() - kPatchMargin; ++y) {
+        for (int x = kPatchMargin; x < visible.width() - kPatchMargin; ++x) {
+            if ((x + y) % 3 != 0 || visible.at(x, y) < 128) continue;
+            if (visible.at(x - 1, y) >= 128 && visible.at(x + 1, y) >= 128 &&
+                visible.at(x, y - 1) >= 128 && visible.at(x, y + 1) >= 128)
+                continue;
+            const Vec2 out_px = kAway_px * outwards(visible, {x, y});
+            const Vec2i beyond(x + static_cast<int>(std::lround(out_px.x)),
+                               y + static_cast<int>(std::lround(out_px.y)));
+            if (!test.covers(beyond) || visible.at(beyond.x, beyond.y) >= 128) continue;
+            const Rest outside = test.at(beyond, false);
+            if (outside == Rest::kMoved || outside == Rest::kChanged) continue;
+            const Rest edge = test.at({x, y}, false);
+            out.rests += edge == Rest::kRests;
+            out.moved += edge == Rest::kMoved;
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+bool rests_in_view(ViewU8x1 before, ViewU8x1 now, ViewU8x1 visible) {
+    constexpr int kFar = 4;
+    const PlaceTest test(before, now);
+    if (!camera_rests(test, now.size()) || changes_inside(test, visible)) return false;
+    const EdgeCount edge = edge_of(test, visible);
+    return edge.rests >= kFar * edge.moved;
+}
+
+}  // namespace weft
