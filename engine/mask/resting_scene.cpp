@@ -9,7 +9,6 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 
 #include "engine/core/block_means.h"
 #include "engine/core/luma.h"
@@ -19,15 +18,12 @@
 #include "engine/mask/scene_pieces.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/motion/plane_fit.h"
-#include "engine/motion/resting_view.h"
 
 namespace weft {
 namespace {
 
-constexpr float kNear_px = 60;     // of 854×480: what is around the surface
 constexpr float kKnown = 3;        // frames in which a colour was seen …
 constexpr float kSure = 6;         // … and from which on it decides
-constexpr float kMatches = 3;      // noise
 constexpr float kClear_px = 1.5f;  // of the boundary
 constexpr float kUsuallyInside = 0.8f,
                 kUsuallyOutside = 0.2f;  // of the frames in which a place was seen
@@ -84,60 +80,6 @@ ImageF1 RestingScene::expected_luma() const {
                     out.at(x, y) = std::max(1.0f, luma_709(&place->usual.color.x));
     });
     return out;
-}
-
-// What is blank says nothing of its motion; what is measured there is that of what passes.
-bool RestingScene::rests_as_on_key(ViewU8x3 frame, ViewF1 phi) const {
-    Matte inside(phi.size());
-    for (int y = 0; y < inside.height(); ++y)
-        for (int x = 0; x < inside.width(); ++x)
-            inside.at(x, y) = phi.row(y)[x] > 0 ? 255 : 0;
-    return rests_in_view(key_luma_, luma_codes(frame), inside);
-}
-
-// Nothing moves by which nothing changes.
-void RestingScene::keep_resting(const ImageF3& before, Matte moving) {
-    for (int y = 0; y < moving.height(); ++y) {
-        for (int x = 0; x < moving.width(); ++x) {
-            const float change = color_difference(color_at(now_, x, y), color_at(before, x, y));
-            if (change < kMatches * noise_levels_) moving.at(x, y) = 0;
-        }
-    }
-    moving_ = std::move(moving);
-    key_from_cur_ = glm::dmat3(1);
-    fits_ = true;
-}
-
-void RestingScene::move(ViewU8x3 frame, const FlowField& prev_from_cur, ViewF1 phi) {
-    // What comes close in front may fill most of the surroundings for a while.
-    constexpr float kInFront = 0.25f;
-    const ImageF3 before = std::exchange(now_, reduced_floats(frame, scale_.step));
-    SceneStep step = scene_step(prev_from_cur, phi, scale_);
-    fits_ = step.surface == SceneMotion::kRests && step.around == SceneMotion::kRests;
-    if (!fits_ && !step.moving.empty() && rests_as_on_key(frame, phi)) {
-        keep_resting(before, std::move(step.moving));
-        return;
-    }
-    if (step.surface == SceneMotion::kMoves)
-        against_ += 1;
-    else if (step.around == SceneMotion::kMoves)
-        against_ += kInFront;
-    key_from_cur_ = key_from_cur_ * step.prev_from_cur;
-    if (fits_) moving_ = std::move(step.moving);
-}
-
-// Steps add up to a drift: the frame is laid on what is known of the surface and what is near it.
-void RestingScene::stay_on_place(ViewF1 phi, const ImageF1& luma) {
-    Matte known(scale_.size);
-    const ImageF1 expected = expected_luma();
-    for (int y = 0; y < known.height(); ++y) {
-        for (int x = 0; x < known.width(); ++x) {
-            const bool near = depth(phi, x, y) > -kNear_px * scale_.unit_px && !passes(x, y);
-            known.at(x, y) = near && expected.at(x, y) > 0 ? 255 : 0;
-        }
-    }
-    if (const auto shift = expected_from_cur(expected, luma, known, scale_))
-        key_from_cur_ = key_from_cur_ * *shift;
 }
 
 // The known colour of a place that is nearest to `color`, code values, if it is nearer than

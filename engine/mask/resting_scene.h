@@ -41,6 +41,9 @@ class RestingScene {
     void correct(ViewU8x1 where, ViewU8x1 inside);
 
   private:
+    static constexpr float kNear_px = 60;  // of 854×480: what is around the surface
+    static constexpr float kMatches = 3;   // noise
+
     // What is known of what a block of the frame shows.
     struct Seen {
         float frames = 0;     // in which it was seen; 0: it is not known

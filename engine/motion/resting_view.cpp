@@ -12,6 +12,8 @@ constexpr int kPatchReach = 3;  // px, of a patch to either side of its middle
 constexpr int kBeside = 2;      // px, at which a patch must fit less well
 constexpr int kPatchMargin = kPatchReach + kBeside + 1;
 
+constexpr double kStructure = 4 * 4;  // the least square of a deviation
+
 // A patch of both frames: its means, deviations and their product, in 8-bit levels.
 struct Pair {
     double mean_a = 0, mean_b = 0, square_a = 0, square_b = 0, product = 0;
@@ -55,7 +57,7 @@ class PlaceTest {
     }
     // `sharply`: better than beside it, in every direction that its structure tells.
     [[nodiscard]] Rest at(Vec2i place, bool sharply) const {
-        constexpr double kStructure = 4 * 4, kSame = 0.8, kWorse = 0.05, kBetter = 0.005;
+        constexpr double kSame = 0.8, kWorse = 0.05, kBetter = 0.005;
         constexpr double kSameLevel = 6;
         const Pair here = pair_at(anchor_, cur_, place, place);
         if (std::min(here.square_a, here.square_b) < kStructure)
@@ -91,18 +93,19 @@ bool camera_rests(const PlaceTest& test, Size size) {
     return rest >= kFewest && rest >= kGoodPart * (rest + moved);
 }
 
-// Whether half of the surface or more has structure that is not where it was.
-bool changes_inside(const PlaceTest& test, ViewU8x1 visible) {
+// The share of a surface's places of which something is true; 0 where there are none.
+template <class Test>
+double share_of(ViewU8x1 visible, const Test& test) {
     constexpr int kStep = 6;
-    int all = 0, moved = 0;
+    int all = 0, hits = 0;
     for (int y = kPatchMargin; y < visible.height() - kPatchMargin; y += kStep) {
         for (int x = kPatchMargin; x < visible.width() - kPatchMargin; x += kStep) {
             if (visible.at(x, y) < 128) continue;
             ++all;
-            moved += test.at({x, y}, false) == Rest::kMoved;
+            hits += test(Vec2i(x, y)) ? 1 : 0;
         }
     }
-    return 2 * moved > all;
+    return all > 0 ? static_cast<double>(hits) / all : 0.0;
 }
 
 // The outward direction of a matte's edge.
@@ -149,9 +152,16 @@ EdgeCount edge_of(const PlaceTest& test, ViewU8x1 visible) {
 bool rests_in_view(ViewU8x1 before, ViewU8x1 now, ViewU8x1 visible) {
     constexpr int kFar = 4;
     const PlaceTest test(before, now);
-    if (!camera_rests(test, now.size()) || changes_inside(test, visible)) return false;
+    if (!camera_rests(test, now.size())) return false;
+    const auto moved = [&](Vec2i at) { return test.at(at, false) == Rest::kMoved; };
+    if (share_of(visible, moved) > 0.5) return false;
     const EdgeCount edge = edge_of(test, visible);
     return edge.rests >= kFar * edge.moved;
+}
+
+double blank_share(ViewU8x1 luma, ViewU8x1 visible) {
+    return share_of(visible,
+                    [&](Vec2i at) { return pair_at(luma, luma, at, at).square_a < kStructure; });
 }
 
 }  // namespace weft

@@ -15,4 +15,8 @@ namespace weft {
 /// `now`: lumas; `visible`: the surface on the frame `now`, all H×W. Pure; deterministic.
 [[nodiscard]] bool rests_in_view(ViewU8x1 before, ViewU8x1 now, ViewU8x1 visible);
 
+/// The share of the surface's places that have no structure by which motion could be told: 1 where
+/// none has any. Both H×W. Pure; deterministic.
+[[nodiscard]] double blank_share(ViewU8x1 luma, ViewU8x1 visible);
+
 }  // namespace weft

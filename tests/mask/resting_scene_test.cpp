@@ -32,6 +32,7 @@ struct Room {
     std::vector<Thing> things;
     Vec2 wall_step{0, 0};  // against the room
     float pan = kRoomPan;
+    bool blank = false;  // the wall, so that what passes takes the motion beside it along
     int blind_from = 1000, blind_to = 1000;  // frames without evidence: black, and not followed
 
     [[nodiscard]] Vec2 in_room(Vec2 p, int t) const {
@@ -54,6 +55,7 @@ struct Room {
         if (const Thing* thing = thing_at(p, t)) return thing->color;
         if (is_wall(p, t)) {
             const Vec2 w = q - static_cast<float>(t) * wall_step;
+            if (blank) return Vec3(236, 232, 230);
             const bool white = static_cast<int>(w.x / 12) % 2 == 0;
             return (white ? Vec3(236, 232, 230) : Vec3(214, 180, 190)) + 8.0f * paint(w);
         }
@@ -89,7 +91,11 @@ struct Room {
             for (int x = 0; x < kRoom.width; ++x) {
                 const Vec2 p = centre_of(x, y);
                 const Thing* thing = t > kBegins ? thing_at(p, t) : nullptr;
-                const Vec2 own = thing ? thing->step : is_wall(p, t) ? wall_step : Vec2(0);
+                const bool dragged = blank && t > kBegins && is_wall(p, t);
+                const Vec2 own = thing           ? thing->step
+                                 : dragged       ? things.front().step
+                                 : is_wall(p, t) ? wall_step
+                                                 : Vec2(0);
                 out.d.pixel(x, y)[0] = pan - own.x;
                 if (is_blind(t)) out.valid.at(x, y) = 0;
                 out.d.pixel(x, y)[1] = -own.y;
@@ -159,6 +165,23 @@ TEST(RestingScene, GivesBackWhatAPassingThingUncovers) {
     const Matte lost = room.wall(kLast, kNowhere, is_behind_board);
     EXPECT_LT(test::overlap(lost, truth), 0.6);
     EXPECT_GT(test::overlap(found.last, truth), 0.95);
+}
+
+TEST(RestingScene, GivesBackABlankWallThoughItSeemsToMoveWithWhatPasses) {
+    Room room = with_board();
+    room.pan = 0;
+    room.blank = true;
+    constexpr int kLast = 36;
+    const Walk found = walk(room, kLast, kNowhere, is_behind_board);
+    EXPECT_GT(test::overlap(found.last, room.wall(kLast, kNowhere, kNowhere)), 0.93);
+}
+
+TEST(RestingScene, LeavesABlankThingThatMoves) {
+    Room room = with_board();
+    room.pan = 0;
+    room.blank = true;
+    room.wall_step = room.things.front().step;
+    EXPECT_EQ(walk(room, 30, kNowhere, kNowhere).corrected, 0);
 }
 
 TEST(RestingScene, KeepsWhatItKnowsThroughFramesThatShowNothing) {
