@@ -2,6 +2,7 @@
 
 #include "engine/motion/photometric_register.h"
 #include "engine/motion/resting_view.h"
+#include "engine/temporal/walk_state.h"
 
 namespace weft {
 
@@ -15,6 +16,17 @@ bool clearly_moves(const StepFrame& prev, const StepFrame& cur, const LatticeFie
     constexpr double kMuch = 0.25;
     const LatticeField still(cur.size(), prev_from_cur.spacing());
     return registration_lead(prev.picture(), cur.picture(), prev_from_cur, still).gain > kMuch;
+}
+
+// Leaves a faint surface where the present anchor shows it, if it rests there.
+bool SurfaceWalker::State::take_rest(const WalkStep& to) {
+    const StepFrame& cur = *to.frame;
+    if (!to.evidence.faint || lost || !rests_where_seen(*anchors.present().frame, cur) ||
+        clearly_moves(*last, cur, to.evidence.by_picture))
+        return false;
+    prev_from_cur = inverse(anchor_from_cur);
+    correct(anchors.present_index(), LatticeField(frame_size(), options.spacing_px));
+    return true;
 }
 
 }  // namespace weft

@@ -7,7 +7,6 @@
 
 #include "engine/motion/flat_motion.h"
 #include "engine/temporal/outline_evidence.h"
-#include "engine/temporal/resting_surface.h"
 #include "engine/temporal/tiny_surface.h"
 #include "engine/temporal/walk_state.h"
 
@@ -66,14 +65,6 @@ Registered SurfaceWalker::State::against_present(const StepFrame& cur) {
     auto wider =
         lost_places.find(anchor, cur, {choice.by_color(), choice.freed()}, found, options.quality);
     return wider ? std::move(*wider) : std::move(found);
-}
-
-// The present anchor shows the surface where it is.
-void SurfaceWalker::State::rest() {
-    const LatticeField before = anchor_from_cur;
-    const LatticeField here(frame_size(), options.spacing_px);
-    correct(anchors.present_index(), mix(before, here, kPlanarGain));
-    prev_from_cur = compose(anchor_from_cur, inverse(before));
 }
 
 // Takes the frame as a plane's if the surface is one.
@@ -275,12 +266,7 @@ const LatticeField& SurfaceWalker::advance(const WalkStep& to) {
         if (hiding) s.advance_stretched();
         return keep();
     };
-    if (to.evidence.faint && !s.lost && !was_hidden &&
-        rests_where_seen(*s.anchors.present().frame, cur) &&
-        !clearly_moves(*s.last, cur, to.evidence.by_picture)) {
-        s.rest();
-        return noted();
-    }
+    if (!was_hidden && s.take_rest(to)) return noted();
     // A part that has just come into view has no motion yet, and says nothing for either choice.
     MotionChoice unchanged = s.choice;
     const StepEvidence& evidence = s.evidence_of(to);

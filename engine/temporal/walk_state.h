@@ -123,7 +123,7 @@ struct SurfaceWalker::State {
     std::optional<RegistrationFit> lay_as_settled_plane(const StepFrame& cur);
     void leave_plane(const StepFrame& cur);
     void lay(const LatticeField& expected, const LatticeField& registered, ViewU8x1 visible);
-    void rest();
+    bool take_rest(const WalkStep& to);
     void register_frame(const std::shared_ptr<const StepFrame>& cur);
     void register_drawing(const StepFrame& cur);
     bool advance_parts(const SurfaceWalker& whole, const WalkStep& to);
