@@ -65,8 +65,8 @@ TEST(FlatPlane, StraightLinesStayStraight) {
         const Vec2 a = flat(form, from), b = flat(form, to);
         const Vec2 along = (b - a) / glm::length(b - a);
         float most = 0;
-        for (float share = 0.1f; share < 1; share += 0.1f) {
-            const Vec2 d = flat(form, from + share * (to - from)) - a;
+        for (int tenth = 1; tenth < 10; ++tenth) {
+            const Vec2 d = flat(form, from + 0.1f * static_cast<float>(tenth) * (to - from)) - a;
             most = std::max(most, std::abs(along.x * d.y - along.y * d.x));
         }
         return most;
@@ -79,7 +79,8 @@ TEST(FlatPlane, StraightLinesStayStraight) {
 TEST(FlatPlane, NothingFoldsOverBeyondTheHorizon) {
     const FormMap form = flat_plane(kStreet, least_seen(15), seen_street(15));
     for (const float x : {10.0f, 160.0f, 310.0f}) {
-        for (float y = 0; y < 236; y += 4) {
+        for (int row = 0; row < 236; row += 4) {
+            const auto y = static_cast<float>(row);
             const Vec2 d = flat(form, {x, y + 4}) - flat(form, {x, y});
             EXPECT_TRUE(std::isfinite(d.x) && std::isfinite(d.y));
             EXPECT_GT(d.y, 0) << "at " << x << ", " << y;
