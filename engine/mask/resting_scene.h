@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
+#include <optional>
 #include <vector>
 
 #include "engine/core/fields.h"
@@ -77,8 +78,8 @@ class RestingScene {
     void see_places(ViewF1 phi);
     [[nodiscard]] std::vector<Matte> found_late(ViewF1 phi, const SurfacePalette& palette);
     void move(ViewU8x3 frame, const FlowField& prev_from_cur, ViewF1 phi);
-    [[nodiscard]] bool rests_as_on_key(ViewU8x3 frame, ViewF1 phi) const;
-    void keep_resting(const ImageF3& before, Matte moving);
+    [[nodiscard]] std::optional<Vec2> rests_as_on_key(ViewU8x3 frame, ViewF1 phi) const;
+    void keep_resting(Vec2 shift, const ImageF3& before, Matte moving);
     void stay_on_place(ViewF1 phi, const ImageF1& luma);
     void compare();
     void measure_noise(ViewF1 phi);

@@ -9,18 +9,19 @@
 namespace weft {
 
 // What is blank says nothing of its motion; what is measured there is that of what passes.
-bool RestingScene::rests_as_on_key(ViewU8x3 frame, ViewF1 phi) const {
+std::optional<Vec2> RestingScene::rests_as_on_key(ViewU8x3 frame, ViewF1 phi) const {
     Matte inside(phi.size());
     for (int y = 0; y < inside.height(); ++y)
         for (int x = 0; x < inside.width(); ++x)
             inside.at(x, y) = phi.row(y)[x] > 0 ? 255 : 0;
     constexpr double kMostly = 0.6;
     const Matte luma = luma_codes(frame);
-    return blank_share(luma, inside) > kMostly && rests_in_view(key_luma_, luma, inside);
+    if (blank_share(luma, inside) <= kMostly) return std::nullopt;
+    return rests_in_view(key_luma_, luma, inside);
 }
 
 // Nothing moves by which nothing changes.
-void RestingScene::keep_resting(const ImageF3& before, Matte moving) {
+void RestingScene::keep_resting(Vec2 shift, const ImageF3& before, Matte moving) {
     for (int y = 0; y < moving.height(); ++y) {
         for (int x = 0; x < moving.width(); ++x) {
             const float change = color_difference(color_at(now_, x, y), color_at(before, x, y));
@@ -29,6 +30,7 @@ void RestingScene::keep_resting(const ImageF3& before, Matte moving) {
     }
     moving_ = std::move(moving);
     key_from_cur_ = glm::dmat3(1);
+    key_from_cur_[2] = {shift.x, shift.y, 1};
     fits_ = true;
 }
 
@@ -38,8 +40,10 @@ void RestingScene::move(ViewU8x3 frame, const FlowField& prev_from_cur, ViewF1 p
     const ImageF3 before = std::exchange(now_, reduced_floats(frame, scale_.step));
     SceneStep step = scene_step(prev_from_cur, phi, scale_);
     fits_ = step.surface == SceneMotion::kRests && step.around == SceneMotion::kRests;
-    if (!fits_ && !step.moving.empty() && rests_as_on_key(frame, phi)) {
-        keep_resting(before, std::move(step.moving));
+    const auto at_rest =
+        !fits_ && !step.moving.empty() ? rests_as_on_key(frame, phi) : std::optional<Vec2>();
+    if (at_rest) {
+        keep_resting(*at_rest, before, std::move(step.moving));
         return;
     }
     if (step.surface == SceneMotion::kMoves)

@@ -1,9 +1,12 @@
 #include "engine/motion/resting_view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
+
+#include "engine/core/median.h"
 
 namespace weft {
 namespace {
@@ -11,7 +14,6 @@ namespace {
 constexpr int kPatchReach = 3;  // px, of a patch to either side of its middle
 constexpr int kBeside = 2;      // px, at which a patch must fit less well
 constexpr int kPatchMargin = kPatchReach + kBeside + 1;
-
 constexpr double kStructure = 4 * 4;  // the least square of a deviation
 
 // A patch of both frames: its means, deviations and their product, in 8-bit levels.
@@ -75,22 +77,41 @@ class PlaceTest {
         return worst < same - kWorse ? Rest::kRests : Rest::kBlank;
     }
 
+    // By how much it is beside its place along an axis, px: the top of a parabola through the
+    // correlations there and a pixel to either side. Empty where these hardly differ.
+    [[nodiscard]] std::optional<float> off(Vec2i place, Vec2i axis) const {
+        constexpr double kTold = 0.02;
+        const auto fit = [&](Vec2i at) { return pair_at(anchor_, cur_, at, place).correlation(); };
+        const double here = fit(place), less = fit(place - axis), more = fit(place + axis);
+        const double bend = 2 * here - less - more;
+        if (bend < kTold) return std::nullopt;
+        return static_cast<float>(std::clamp(0.5 * (more - less) / bend, -1.0, 1.0));
+    }
+
   private:
     ViewU8x1 anchor_, cur_;
 };
 
-bool camera_rests(const PlaceTest& test, Size size) {
-    constexpr int kStep = 6, kFewest = 8;
+// How far the camera has given way, if it stands still.
+std::optional<Vec2> camera_shift(const PlaceTest& test, Size size) {
+    constexpr int kStep = 6;
+    constexpr std::size_t kFewest = 8;
     constexpr double kGoodPart = 0.15;
-    int rest = 0, moved = 0;
+    std::size_t rest = 0, moved = 0;
+    std::vector<float> along_x, along_y;
     for (int y = kPatchMargin; y < size.height - kPatchMargin; y += kStep) {
         for (int x = kPatchMargin; x < size.width - kPatchMargin; x += kStep) {
             const Rest found = test.at({x, y}, true);
-            rest += found == Rest::kRests;
-            moved += found == Rest::kMoved;
+            moved += found == Rest::kMoved ? 1U : 0U;
+            if (found != Rest::kRests) continue;
+            ++rest;
+            if (const auto off = test.off({x, y}, {1, 0})) along_x.push_back(*off);
+            if (const auto off = test.off({x, y}, {0, 1})) along_y.push_back(*off);
         }
     }
-    return rest >= kFewest && rest >= kGoodPart * (rest + moved);
+    if (rest < kFewest || static_cast<double>(rest) < kGoodPart * static_cast<double>(rest + moved))
+        return std::nullopt;
+    return Vec2(weft::median_of(along_x, 0.0f), weft::median_of(along_y, 0.0f));
 }
 
 // The share of a surface's places of which something is true; 0 where there are none.
@@ -149,14 +170,15 @@ EdgeCount edge_of(const PlaceTest& test, ViewU8x1 visible) {
 
 }  // namespace
 
-bool rests_in_view(ViewU8x1 before, ViewU8x1 now, ViewU8x1 visible) {
+std::optional<Vec2> rests_in_view(ViewU8x1 before, ViewU8x1 now, ViewU8x1 visible) {
     constexpr int kFar = 4;
     const PlaceTest test(before, now);
-    if (!camera_rests(test, now.size())) return false;
+    const auto shift = camera_shift(test, now.size());
+    if (!shift) return std::nullopt;
     const auto moved = [&](Vec2i at) { return test.at(at, false) == Rest::kMoved; };
-    if (share_of(visible, moved) > 0.5) return false;
+    if (share_of(visible, moved) > 0.5) return std::nullopt;
     const EdgeCount edge = edge_of(test, visible);
-    return edge.rests >= kFar * edge.moved;
+    return edge.rests >= kFar * edge.moved ? shift : std::nullopt;
 }
 
 double blank_share(ViewU8x1 luma, ViewU8x1 visible) {

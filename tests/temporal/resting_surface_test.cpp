@@ -48,7 +48,9 @@ struct Tabletop {
                     [&](Vec2 p) { return on_table(p, t) && !on_cup(p, t) ? 1.0f : 0.0f; });
     }
     [[nodiscard]] StepFrame frame(int t) const { return {luma(t), matte(t), matte(t)}; }
-    [[nodiscard]] bool rests(int t) const { return rests_where_seen(frame(0), frame(t)); }
+    [[nodiscard]] bool rests(int t) const {
+        return rests_where_seen(frame(0), frame(t)).has_value();
+    }
     // The farthest that a walk takes its places in `frames` frames, px.
     [[nodiscard]] float walked(int frames) const {
         SurfaceWalker walker(luma(0), matte(0), {});
@@ -66,6 +68,17 @@ TEST(RestingSurface, ABlankTableRestsWhileACupIsMovedOverIt) {
     for (const int t : {1, 5, 10})
         EXPECT_TRUE(scene.rests(t)) << t;
     EXPECT_LT(scene.walked(10), 0.1f);
+}
+
+TEST(RestingSurface, GoesWithATripodThatGivesWay) {
+    Tabletop scene;
+    scene.camera_px = 0.06f;
+    for (const int t : {1, 3, 5}) {
+        const auto shift = rests_where_seen(scene.frame(0), scene.frame(t));
+        ASSERT_TRUE(shift) << t;
+        EXPECT_NEAR(shift->x, -0.06f * static_cast<float>(t), 0.06f) << t;
+        EXPECT_NEAR(shift->y, 0, 0.06f) << t;
+    }
 }
 
 TEST(RestingSurface, RestsInWhateverExposure) {
@@ -107,7 +120,7 @@ TEST(RestingSurface, WhatIsSeenToMoveBehindAFrameMoves) {
     for (int j = 0; j < step.nodes().height(); ++j)
         for (int i = 0; i < step.nodes().width(); ++i)
             step.set_node(i, j, {-2, 0});
-    EXPECT_TRUE(rests_where_seen(first, second)) << "by its edge";
+    EXPECT_TRUE(rests_where_seen(first, second).has_value()) << "by its edge";
     EXPECT_TRUE(clearly_moves(first, second, step));
     EXPECT_FALSE(clearly_moves(first, second, none));
 }
