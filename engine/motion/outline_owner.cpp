@@ -2,22 +2,10 @@
 
 #include <cmath>
 
+#include "engine/motion/edge_direction.h"
+
 namespace weft {
 namespace {
-
-// The outward direction of the edge at (x, y), from the matte around it.
-Vec2 outwards(ViewU8x1 extent, int x, int y) {
-    constexpr int kReach = 4;
-    Vec2 sum(0);
-    for (int dy = -kReach; dy <= kReach; ++dy) {
-        for (int dx = -kReach; dx <= kReach; ++dx) {
-            if (extent.at(x + dx, y + dy) < 128)
-                sum += Vec2(static_cast<float>(dx), static_cast<float>(dy));
-        }
-    }
-    const float length = glm::length(sum);
-    return length > 0 ? sum / length : Vec2(0);
-}
 
 // Whether motion can be seen around (x, y): flat fills move with the nearest line.
 bool has_structure(ViewU8x1 luma, int x, int y) {

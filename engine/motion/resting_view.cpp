@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/median.h"
+#include "engine/motion/edge_direction.h"
 
 namespace weft {
 namespace {
@@ -129,17 +130,6 @@ double share_of(ViewU8x1 visible, const Test& test) {
     return all > 0 ? static_cast<double>(hits) / all : 0.0;
 }
 
-// The outward direction of a matte's edge.
-Vec2 outwards(ViewU8x1 matte, Vec2i at) {
-    constexpr int kAround = 4;
-    Vec2 sum(0);
-    for (int y = -kAround; y <= kAround; ++y)
-        for (int x = -kAround; x <= kAround; ++x)
-            if (matte.at(at.x + x, at.y + y) < 128) sum += Vec2(x, y);
-    const float length = glm::length(sum);
-    return length > 0 ? sum / length : Vec2(0);
-}
-
 // Of the surface's edge: places that rest, and places that do not though what is beyond them does.
 struct EdgeCount {
     int rests = 0, moved = 0;
@@ -154,7 +144,7 @@ EdgeCount edge_of(const PlaceTest& test, ViewU8x1 visible) {
             if (visible.at(x - 1, y) >= 128 && visible.at(x + 1, y) >= 128 &&
                 visible.at(x, y - 1) >= 128 && visible.at(x, y + 1) >= 128)
                 continue;
-            const Vec2 out_px = kAway_px * outwards(visible, {x, y});
+            const Vec2 out_px = kAway_px * outwards(visible, x, y);
             const Vec2i beyond(x + static_cast<int>(std::lround(out_px.x)),
                                y + static_cast<int>(std::lround(out_px.y)));
             if (!test.covers(beyond) || visible.at(beyond.x, beyond.y) >= 128) continue;
