@@ -101,6 +101,11 @@ void BackgroundPlate::move(ViewF2 background_from_cur) {
     known_ = std::move(known);
 }
 
+float BackgroundPlate::difference(const std::uint8_t* color, int x, int y) const {
+    if (known_.row(y)[x] == 0) return -1;
+    return least_difference_but_light(color, picture_, x, y) / 3;
+}
+
 ImageF1 BackgroundPlate::odds(ViewU8x3 frame, ViewF1 expected_phi, ViewF1 surface_difference,
                               const Recti& area) const {
     const int w = area.width(), h = area.height();

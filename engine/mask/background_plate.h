@@ -2,6 +2,8 @@
 // A clean plate of a shape's surroundings that moves with the background. It keeps what was visible
 // before the shape passed in front. What differs from it is not background.
 
+#include <cstdint>
+
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
 
@@ -23,6 +25,10 @@ class BackgroundPlate {
     /// `area`.
     [[nodiscard]] ImageF1 odds(ViewU8x3 frame, ViewF1 expected_phi, ViewF1 surface_difference,
                                const Recti& area) const;
+
+    /// How far a colour is from what the plate shows around pixel (x, y), but for light: the mean
+    /// over channels, 8-bit levels; −1 where the plate is unknown.
+    [[nodiscard]] float difference(const std::uint8_t* color, int x, int y) const;
 
     /// Adds what lies outside the found shape.
     void update(ViewU8x3 frame, ViewF1 phi);

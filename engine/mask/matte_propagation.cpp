@@ -58,7 +58,7 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            MotionReturn(phi),
                                            PartReturn(phi),
                                            RestingScene(frame, known),
-                                           UnseenGround(known)});
+                                           UnseenGround(frame, known)});
     const float widest_px = kWidestEdgeBands * scale.band_px;
     state_->key_softness = edge_softness(key, shape_without_strands(phi, 2 * widest_px), widest_px);
     const ImageF1& softness = state_->key_softness;
@@ -99,6 +99,7 @@ MatteEstimate MatteWalker::confirm(const ConfirmedPart& part) {
         s.sides.forget(wrong);
         s.newcomers.forget(wrong);
         s.scene.correct(wrong, inside);
+        s.ground.correct(wrong, inside);
     }
     s.last = with_confirmed(std::move(s.last), part);
     s.confirmed.add(part.area);
@@ -154,9 +155,10 @@ MatteEstimate MatteWalker::advance(ViewU8x3 shown, const FlowField& measured, Vi
         s.sides = {};
         s.newcomers = {};
     } else {
-        TransportedShape shape = transport_shape({s.phi, s.seen_phi()}, prev_from_cur, area,
-                                                 s.scale, s.uncovered, covered);
         const ViewU8x3 part = frame.crop(area);
+        TransportedShape shape =
+            transport_shape({s.phi, s.seen_phi()}, prev_from_cur, {part, s.palette}, area, s.scale,
+                            s.uncovered, covered);
         const ImageF2 key_from_cur = follow_places(s.key_from_prev, shape.prev_from_cur, area);
         const RefinedBoundary found =
             s.find_boundary(part, shape, key_from_cur, prev_from_cur, area, covered);
@@ -171,14 +173,14 @@ MatteEstimate MatteWalker::advance(ViewU8x3 shown, const FlowField& measured, Vi
         s.newcomers.settle(phi);
         surface_motion = std::move(shape.prev_from_cur);
     }
-    s.drop_islands(frame, prev_from_cur, background, phi, matte);
+    const Matte dropped = s.drop_islands(frame, prev_from_cur, background, phi, matte);
     s.take_back(frame, prev_from_cur, phi, matte);
     s.take_whole_fills(frame, phi, matte);
     s.take_as_scene(frame, prev_from_cur, covered, phi, matte);
     const Matte parting = parting_pixels(measured, rect_of(frame.size()));
-    s.take_ground(
-        {frame, s.frame, measured, parting, surface_motion, area, s.phi, phi, s.scale.unit_px()},
-        phi, matte);
+    s.take_ground({frame, s.frame, measured, parting, surface_motion, area, s.phi, phi,
+                   s.scale.unit_px(), dropped},
+                  phi, matte);
     if (s.followed) s.followed->advance({measured, parting, surface_motion, area, s.phi, phi});
     s.phi = std::move(phi);
     s.seen = covered.empty() ? ImageF1() : seen_distance(s.phi, covered);

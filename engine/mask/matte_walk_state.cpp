@@ -171,14 +171,15 @@ MatteEstimate MatteWalker::State::estimate(Matte matte) const {
 }
 
 // What was uncovered and taken for surface goes out when it is left behind, and an island that was
-// outside goes at once.
-void MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_cur,
-                                      ViewF2 background, ImageF1& distance, Matte& matte) {
-    const Matte islands =
+// outside goes at once. Returns it; empty: none.
+Matte MatteWalker::State::drop_islands(ViewU8x3 now, const FlowField& prev_from_cur,
+                                       ViewF2 background, ImageF1& distance, Matte& matte) {
+    Matte islands =
         left_behind.advance({now, distance, phi, newcomers.entered(), prev_from_cur, background,
                              key_frame, key_phi, palette, key_from_prev, scale.unit_px()});
     if (!islands.empty())
         take_over(inside_without(distance, islands), scale.limit_px, distance, matte);
+    return islands;
 }
 
 }  // namespace weft

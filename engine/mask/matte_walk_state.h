@@ -69,8 +69,8 @@ struct MatteWalker::State {
     void take_as_scene(ViewU8x3 now, const FlowField& prev_from_cur, const Matte& covered,
                        ImageF1& distance, Matte& matte);
     void take_ground(const GroundStep& step, ImageF1& distance, Matte& matte);
-    void drop_islands(ViewU8x3 now, const FlowField& prev_from_cur, ViewF2 background,
-                      ImageF1& distance, Matte& matte);
+    [[nodiscard]] Matte drop_islands(ViewU8x3 now, const FlowField& prev_from_cur,
+                                     ViewF2 background, ImageF1& distance, Matte& matte);
     LocalColorField fit_colors(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,
                                const Recti& area, Matte covered) const;
     RefinedBoundary find_boundary(ViewU8x3 part, const TransportedShape& shape, ViewF2 key_from_cur,

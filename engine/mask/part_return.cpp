@@ -12,14 +12,14 @@ namespace weft {
 namespace {
 
 // Shares of the usual area: below the first too little is seen, above the second enough.
-constexpr double kLost = 0.1, kWhole = 0.6;
+constexpr double kPartLost = 0.1, kPartWhole = 0.6;
 // Of that area, from frame to frame. Slower, and a surface that turns or goes away passes for half
 // hidden; so only a sudden loss counts.
 constexpr double kFollowArea = 0.1;
-constexpr double kLargest = 1.2;      // share of it that a piece may have
-constexpr double kMostOfSeen = 0.6;   // of what is seen lies in the piece
-constexpr double kLeastMotion = 0.5;  // log odds, mean of a piece
-constexpr int kFramesInRow = 3;
+constexpr double kLargestPart = 1.2;      // share of it that a piece may have
+constexpr double kMostOfSeen = 0.6;       // of what is seen lies in the piece
+constexpr double kLeastPartMotion = 0.5;  // log odds, mean of a piece
+constexpr int kPartFramesInRow = 3;
 // The higher the odds, the closer a piece lies to the surface: measured motion spreads over edges.
 constexpr int kOddsSteps = 8;
 constexpr float kOddsStep = 0.5f;
@@ -80,8 +80,8 @@ Matte piece_around(const MotionReturnInput& in, double seen_px, double usual_px)
             pieces.begin() + 1, pieces.end(),
             [](const Piece& a, const Piece& b) { return a.found_px < b.found_px; });
         if (around->found_px < kMostOfSeen * seen_px) return {};
-        if (around->area_px > kLargest * usual_px) continue;
-        if (around->motion < kLeastMotion * around->area_px) return {};
+        if (around->area_px > kLargestPart * usual_px) continue;
+        if (around->motion < kLeastPartMotion * around->area_px) return {};
         return of_piece(labels, static_cast<std::int32_t>(around - pieces.begin()),
                         in.frame.size());
     }
@@ -95,12 +95,12 @@ PartReturn::PartReturn(ViewF1 key_phi) : usual_px_(area_of(key_phi)) {}
 Matte PartReturn::returned(const MotionReturnInput& in) {
     const double seen = area_of(in.phi);
     const bool leaving = leaves(in.phi);
-    const bool in_part = seen > kLost * usual_px_ && seen < kWhole * usual_px_ && !leaving;
+    const bool in_part = seen > kPartLost * usual_px_ && seen < kPartWhole * usual_px_ && !leaving;
     const double usual = usual_px_;
     usual_px_ += (leaving ? 1 : kFollowArea) * (seen - usual_px_);
     Matte rest = in_part ? piece_around(in, seen, usual) : Matte();
     frames_ = rest.empty() ? 0 : frames_ + 1;
-    return frames_ >= kFramesInRow ? std::move(rest) : Matte();
+    return frames_ >= kPartFramesInRow ? std::move(rest) : Matte();
 }
 
 }  // namespace weft

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
+#include "engine/mask/foreign_entries.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/spread_motion.h"
 
@@ -84,9 +85,9 @@ TransportedShape measure_motion(ViewF1 prev_phi, const FlowField& prev_from_cur,
 }
 
 // The distance where the motion leads. What is revealed is outside, and near enough to the boundary
-// to be decided by its colours.
-ImageF1 moved_distance(ViewF1 prev_phi, ViewF2 motion, const Matte& revealed, const Recti& area,
-                       const RefineScale& scale) {
+// to be decided by its colours; what has entered is outside.
+ImageF1 moved_distance(ViewF1 prev_phi, ViewF2 motion, const Matte& revealed, const Matte& entered,
+                       const Recti& area, const RefineScale& scale) {
     constexpr float kUndecidedBands = 0.2f;
     const int w = area.width(), h = area.height();
     ImageF1 moved(area.size());
@@ -97,7 +98,8 @@ ImageF1 moved_distance(ViewF1 prev_phi, ViewF2 motion, const Matte& revealed, co
                 const float* d = motion.pixel(x, y);
                 moved.row(y)[x] = sample_bilinear(prev_phi, static_cast<float>(area.x0 + x) + d[0],
                                                   static_cast<float>(area.y0 + y) + d[1]);
-                inside.row(y)[x] = moved.row(y)[x] > 0 && revealed.row(y)[x] == 0 ? 1 : 0;
+                const bool other = revealed.row(y)[x] != 0 || entered.row(y)[x] != 0;
+                inside.row(y)[x] = moved.row(y)[x] > 0 && !other ? 1 : 0;
             }
         }
     });
@@ -107,7 +109,9 @@ ImageF1 moved_distance(ViewF1 prev_phi, ViewF2 motion, const Matte& revealed, co
         float* phi = distance.row(y);
         const float* m = moved.row(y);
         for (int x = 0; x < w; ++x) {
-            if (revealed.row(y)[x] != 0)
+            if (entered.row(y)[x] != 0)
+                phi[x] = std::min(phi[x], -scale.band_px);
+            else if (revealed.row(y)[x] != 0)
                 phi[x] = std::max(phi[x], -kUndecidedBands * scale.band_px);
             else if (std::abs(phi[x]) < 3)
                 phi[x] = std::clamp(m[x], phi[x] - 0.5f, phi[x] + 0.5f);
@@ -116,16 +120,28 @@ ImageF1 moved_distance(ViewF1 prev_phi, ViewF2 motion, const Matte& revealed, co
     return distance;
 }
 
+// What something in front hides is that thing's.
+void keep_seen(Matte& found, const Recti& area, ViewU8x1 hidden) {
+    if (hidden.empty()) return;
+    for (int y = 0; y < area.height(); ++y) {
+        for (int x = 0; x < area.width(); ++x)
+            if (hidden.row(area.y0 + y)[area.x0 + x] != 0) found.at(x, y) = 0;
+    }
+}
+
 }  // namespace
 
 TransportedShape transport_shape(const PreviousShape& prev, const FlowField& prev_from_cur,
-                                 const Recti& area, const RefineScale& scale, Uncovered& uncovered,
-                                 ViewU8x1 hidden) {
+                                 const ShownArea& shown, const Recti& area,
+                                 const RefineScale& scale, Uncovered& uncovered, ViewU8x1 hidden) {
     TransportedShape shape = measure_motion(prev.phi, prev_from_cur, area, scale, hidden);
     shape.uncovered = uncovered.advance({prev_from_cur, prev.phi, prev.seen, shape.prev_from_cur,
                                          shape.outside_motion, area, scale.band_px});
-    shape.phi =
-        moved_distance(prev.phi, shape.prev_from_cur, shape.uncovered.revealed, area, scale);
+    Matte entered = foreign_entries({shown.frame, prev_from_cur, prev.phi, shape.prev_from_cur,
+                                     area, shown.palette, scale.unit_px()});
+    keep_seen(entered, area, hidden);
+    shape.phi = moved_distance(prev.phi, shape.prev_from_cur, shape.uncovered.revealed, entered,
+                               area, scale);
     return shape;
 }
 

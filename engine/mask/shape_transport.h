@@ -5,6 +5,7 @@
 #include "engine/core/fields.h"
 #include "engine/core/image.h"
 #include "engine/mask/boundary_refiner.h"
+#include "engine/mask/surface_palette.h"
 #include "engine/mask/uncovered.h"
 
 namespace weft {
@@ -26,11 +27,19 @@ struct PreviousShape {
     ViewF1 seen;  ///< … and the same, 0 where something in front hid it.
 };
 
+/// What the frame's area shows, and the colours that the surface has.
+struct ShownArea {
+    ViewU8x3 frame;  ///< Display codes, of the area's size.
+    const SurfacePalette& palette;
+};
+
 /// `prev` and `prev_from_cur` are of the frame's size, `area` lies in it. `hidden`, of the same
 /// size or empty: where something is in front (motion_behind()); what is seen near by counts more.
-/// `uncovered`, of the walk: what is revealed is not expected to be the surface.
+/// `uncovered`, of the walk: what is revealed is not expected to be the surface, and no more is
+/// what has come over the picture's border and shows other colours (foreign_entries()).
 [[nodiscard]] TransportedShape transport_shape(const PreviousShape& prev,
-                                               const FlowField& prev_from_cur, const Recti& area,
+                                               const FlowField& prev_from_cur,
+                                               const ShownArea& shown, const Recti& area,
                                                const RefineScale& scale, Uncovered& uncovered,
                                                ViewU8x1 hidden = {});
 

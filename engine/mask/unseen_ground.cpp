@@ -14,6 +14,7 @@
 
 #include "engine/core/median.h"
 #include "engine/core/parallel.h"
+#include "engine/mask/hidden_part.h"
 #include "engine/mask/matte_box.h"
 #include "engine/mask/motion_support.h"
 #include "engine/mask/nearest_pixel.h"
@@ -25,7 +26,8 @@ namespace {
 constexpr std::uint8_t kKnown = 255;
 constexpr std::uint8_t kRipe = 4, kMostWaited = 12;  // frames
 constexpr int kAcross_px = 2;                        // from an edge
-constexpr float kWith_px = 1;                        // of the surface's motion, per frame
+constexpr int kSure = 2;       // times as fast where the surface itself is seen again
+constexpr float kWith_px = 1;  // of the surface's motion, per frame
 
 // What is plain goes along with anything, as what was just uncovered does, whose own motion nobody
 // knows yet.
@@ -40,17 +42,19 @@ bool goes_along(const GroundStep& step, int x, int y) {
     return speaks_against(pair, {x, y}, surface, own) < kDoubt;
 }
 
-// The palette's log odds, summed over the surroundings that are not known either: a sheet's fold
+// The colours' log odds, summed over the surroundings that are not known either: a sheet's fold
 // or stripe alone may be anybody's.
-cv::Mat odds_around(const GroundStep& step, const Matte& known, const SurfacePalette& palette) {
+cv::Mat odds_around(const GroundStep& step, const Matte& known, const CoveredSurface& covered,
+                    const SurfacePalette& palette) {
     constexpr float kReach_px = 4;
     cv::Mat sums(known.height(), known.width(), CV_32F, cv::Scalar::all(0));
     parallel_rows(known.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             auto* sum = sums.ptr<float>(y);
             for (int x = 0; x < known.width(); ++x) {
-                if (step.phi.row(y)[x] <= 0 && known.at(x, y) == 0)
-                    sum[x] = palette.odds(step.frame.pixel(x, y));
+                if (step.phi.row(y)[x] > 0 || known.at(x, y) != 0) continue;
+                const std::uint8_t* color = step.frame.pixel(x, y);
+                sum[x] = std::max(palette.odds(color), covered.odds(x, y, color));
             }
         }
     });
@@ -118,7 +122,8 @@ bool any_in(const Matte& matte) {
 
 }  // namespace
 
-UnseenGround::UnseenGround(ViewF1 key_phi) : known_(key_phi.size()), waited_(key_phi.size()) {
+UnseenGround::UnseenGround(ViewU8x3 key_frame, ViewF1 key_phi)
+    : known_(key_phi.size()), covered_(key_frame, key_phi), waited_(key_phi.size()) {
     for (int y = 0; y < known_.height(); ++y) {
         for (int x = 0; x < known_.width(); ++x)
             known_.at(x, y) = key_phi.row(y)[x] < 0 ? kKnown : 0;
@@ -126,6 +131,7 @@ UnseenGround::UnseenGround(ViewF1 key_phi) : known_(key_phi.size()), waited_(key
 }
 
 void UnseenGround::follow(const GroundStep& step, const SurfacePalette& palette) {
+    covered_.advance(step);
     const Recti frame = rect_of(known_.size());
     Matte known(known_.size()), waited(known_.size());
     const auto was_seen = [&](Vec2i at, Vec2i from) {
@@ -145,16 +151,20 @@ void UnseenGround::follow(const GroundStep& step, const SurfacePalette& palette)
             }
         }
     });
-    const cv::Mat odds = odds_around(step, known, palette);
+    const cv::Mat odds = odds_around(step, known, covered_, palette);
     parallel_rows(known.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < known.width(); ++x) {
                 if (step.phi.row(y)[x] > 0 || known.at(x, y) != 0) continue;
-                const Vec2i from = source(x, y);
-                const int so_far = was_seen({x, y}, from) ? waited_.at(from.x, from.y) : 0;
-                const bool is_like = odds.at<float>(y, x) > 0 && goes_along(step, x, y);
+                const bool goes = goes_along(step, x, y);
+                const bool sure = covered_.odds(x, y, step.frame.pixel(x, y)) > 0 &&
+                                  (goes || step.flow.valid.row(y)[x] == 0);
+                const Vec2i from = sure ? covered_.place_before(x, y) : source(x, y);
+                const bool seen = sure ? frame.contains(from.x, from.y) : was_seen({x, y}, from);
+                const int so_far = seen ? waited_.at(from.x, from.y) : 0;
+                const bool is_like = odds.at<float>(y, x) > 0 && (sure || goes);
                 waited.at(x, y) = static_cast<std::uint8_t>(
-                    std::clamp(so_far + (is_like ? 1 : -2), 0, int{kMostWaited}));
+                    std::clamp(so_far + (is_like ? (sure ? kSure : 1) : -2), 0, int{kMostWaited}));
             }
         }
     });
@@ -164,27 +174,52 @@ void UnseenGround::follow(const GroundStep& step, const SurfacePalette& palette)
     waited_ = broken ? Matte(known_.size()) : std::move(waited);
 }
 
-Matte UnseenGround::advance(const GroundStep& step, const SurfacePalette& palette) {
+void UnseenGround::correct(ViewU8x1 wrong, ViewU8x1 inside) {
+    covered_.correct(wrong, inside);
+    for (int y = 0; y < wrong.height(); ++y) {
+        for (int x = 0; x < wrong.width(); ++x) {
+            if (wrong.row(y)[x] == 0) continue;
+            known_.at(x, y) = inside.row(y)[x] != 0 ? 0 : kKnown;
+            waited_.at(x, y) = 0;
+        }
+    }
+}
+
+// Of `ripe`, what is joined to the surface, and to what is known by now to be its own, more than to
+// what is known to be outside.
+Matte UnseenGround::joined(const GroundStep& step, Matte ripe, ViewU8x1 own) const {
     constexpr double kLeast_px = 60;
-    follow(step, palette);
-    Matte ripe(known_.size());
-    std::transform(waited_.data(), waited_.data() + waited_.size_bytes(), ripe.data(),
-                   [](std::uint8_t frames) { return frames >= kRipe ? 255 : 0; });
-    if (!any_in(ripe)) return {};
+    if (!any_in(ripe)) return ripe;
     Matte beside(known_.size());
     for (int y = 0; y < ripe.height(); ++y) {
         for (int x = 0; x < ripe.width(); ++x) {
-            const Beside what = step.phi.row(y)[x] > 0 ? Beside::kSurface
-                                : known_.at(x, y) != 0 ? Beside::kOther
-                                                       : Beside::kUnknown;
+            const bool is_own = !own.empty() && own.row(y)[x] != 0;
+            const Beside what = is_own || step.phi.row(y)[x] > 0 ? Beside::kSurface
+                                : known_.at(x, y) != 0           ? Beside::kOther
+                                                                 : Beside::kUnknown;
             beside.at(x, y) = static_cast<std::uint8_t>(what);
         }
     }
     keep_large(ripe, kLeast_px * static_cast<double>(step.unit_px * step.unit_px));
-    if (!any_in(ripe)) return {};
-    keep_joined(ripe, beside, std::numeric_limits<double>::infinity());
-    keep_continuing(step, ripe);
-    return any_in(ripe) ? std::move(ripe) : Matte();
+    if (any_in(ripe)) keep_joined(ripe, beside, std::numeric_limits<double>::infinity());
+    return ripe;
+}
+
+Matte UnseenGround::advance(const GroundStep& step, const SurfacePalette& palette) {
+    follow(step, palette);
+    Matte own(known_.size()), like(known_.size());
+    for (int y = 0; y < own.height(); ++y) {
+        for (int x = 0; x < own.width(); ++x) {
+            if (waited_.at(x, y) < kRipe) continue;
+            const bool sure = covered_.odds(x, y, step.frame.pixel(x, y)) > 0;
+            (sure ? own : like).at(x, y) = 255;
+        }
+    }
+    own = joined(step, std::move(own), {});
+    like = joined(step, std::move(like), own);
+    if (any_in(like)) keep_continuing(step, like);
+    Matte added = either_of(own, like);
+    return any_in(added) ? std::move(added) : Matte();
 }
 
 }  // namespace weft

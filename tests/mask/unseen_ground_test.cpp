@@ -83,7 +83,7 @@ struct Passing {
     [[nodiscard]] double added(const Behind& behind) const {
         const ImageU8x3 first = scene.frame(0);
         const SurfacePalette palette(first, key);
-        UnseenGround ground(key);
+        UnseenGround ground(first, key);
         const ImageF2 still(scene.size);
         Matte any(scene.size);
         for (int t = 1; t <= kSteps; ++t) {
@@ -145,7 +145,7 @@ TEST(UnseenGround, ABlackFrameTellsNothing) {
     gone.step = {0, 0};
     const ImageU8x3 now = gone.frame(0);
     const SurfacePalette palette(passing.scene.frame(0), passing.key);
-    UnseenGround ground(passing.key);
+    UnseenGround ground(passing.scene.frame(0), passing.key);
     const ImageF2 still(size);
     FlowField lost(size), rests(size);
     for (int y = 0; y < size.height; ++y) {
