@@ -76,7 +76,8 @@ class ShotOpener {
                         "Choose one" + by({{setting::kPlate}}) + ".");
         shot_.plate = options_.plate;
         if (!shot_.plate) {
-            WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
+            WEFT_TRY(reader,
+                     open_plate(plate.path, {plate.layer, plate.movie_start, plate.pixel_aspect}));
             std::vector<int> wanted;
             if (!shot_.project.settings.frames.empty()) {
                 WEFT_TRY(list, parse_frame_list(shot_.project.settings.frames));
