@@ -219,6 +219,7 @@ Expected<std::string> surface_key(const Shot& shot, std::size_t index, const Fil
             .value(plan.placement.scale)
             .value(plan.placement.rotate_deg);
         hasher.value(plan.placement.offset_px.x).value(plan.placement.offset_px.y);
+        if (!plan.placement.aspect.square()) hasher.value(plan.placement.aspect.ratio());
         if (plan.placement.corners) {
             for (const Vec2 c : *plan.placement.corners)
                 hasher.value(c.x).value(c.y);

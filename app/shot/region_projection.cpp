@@ -169,8 +169,10 @@ Status project_motion(const MotionSource& motion, RegionPlan& plan) {
                 "Keep one of the two" + by({{setting::kTrack}, {setting::kMotion}}) + ".");
 }
 
-Status project_placement(const Placement& placement, TemporalMode mode, RegionPlan& plan) {
+Status project_placement(const Placement& placement, TemporalMode mode, PixelAspect aspect,
+                         RegionPlan& plan) {
     plan.placement = plane_placement(placement);
+    plan.placement.aspect = aspect;
     plan.scale_keys = placement.scale_keys;
     plan.rotate_keys = placement.rotate_keys;
     plan.offset_keys = placement.offset_keys;

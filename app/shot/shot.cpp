@@ -192,7 +192,8 @@ class ShotOpener {
         project_corrections(region.corrections, plan);
         WEFT_CHECK_OK(project_motion(region.motion, plan));
         WEFT_CHECK_OK(add_track(region.motion, plan));
-        WEFT_CHECK_OK(project_placement(region.placement, region.temporal.mode, plan));
+        WEFT_CHECK_OK(project_placement(region.placement, region.temporal.mode,
+                                        PixelAspect(shot_.plate->pixel_aspect()), plan));
         WEFT_CHECK_OK(project_form(region, plan));
         project_synthesis(region.synthesis, plan);
         plan.amendments = *region.amendments;
