@@ -16,7 +16,7 @@ namespace {
 
 // Increase this when the result of the analysis changes.
 constexpr int kAnalysisVersion = 64;
-constexpr int kFormVersion = 9;   // of the form alone
+constexpr int kFormVersion = 10;  // of the form alone
 constexpr int kFocusVersion = 2;  // of the focus alone
 
 // What keys know files by.
@@ -253,6 +253,7 @@ Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::s
     Hasher hasher;
     hasher.text("form").value(kFormVersion).text(surface);
     add_form_settings(hasher, region);
+    hasher.value(plan.placement.aspect.ratio());
     if (reads_form(plan.form_from))
         WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern, files));
     for (const int frame : plan.form_evidence)

@@ -227,6 +227,8 @@ Status project_drawn_form(const Region& region, bool laid, RegionPlan& plan) {
     plan.form_guides = region.form.shape;
     plan.form_guides.insert(plan.form_guides.end(), region.form.strokes.begin(),
                             region.form.strokes.end());
+    for (FormGuide& guide : plan.form_guides)
+        guide = unsqueezed(std::move(guide), plan.placement.aspect);
     return {};
 }
 
@@ -242,7 +244,7 @@ Status project_form(const Region& region, RegionPlan& plan) {
     if (!(plan.form_amount > 0) || pass.from == RegionPlan::FormFrom::kNothing) return {};
     for (const FormGuide& stroke : region.form.strokes)
         if (stroke.kind == FormGuideKind::kLevel || stroke.kind == FormGuideKind::kCut)
-            plan.form_guides.push_back(stroke);
+            plan.form_guides.push_back(unsqueezed(stroke, plan.placement.aspect));
     const bool locked = region.temporal.mode == TemporalMode::kLocked;
     if (pass.from == RegionPlan::FormFrom::kMotion) {
         // Corners are the artist's own perspective.

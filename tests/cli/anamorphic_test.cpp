@@ -124,6 +124,28 @@ TEST_F(AnamorphicPlate, AnAspectOfOneChangesNoByte) {
     EXPECT_EQ(one, picture("out/0001.exr").rgb);
 }
 
+TEST_F(AnamorphicPlate, AShapeAndAGrownTextureWorkToo) {
+    put_picture("sample96.png", pattern_picture({96, 96}, 5));
+    const Words form{"--form-shape", "plane:20,20,100,20,110,140,10,140"};
+    expect_success(lay("plate.####.exr", form));
+    expect_success(run(joined({"replace", "--plate", "plate.####.exr", "--matte", "masks/####.png",
+                               "--texture", "sample96.png", "-o", "grown/####.exr", "--quality",
+                               "draft", "--backend", "cpu", "--progress", "none"},
+                              form)));
+    const auto found_with = [&](const char* aspect) {
+        return run(joined({"form", "--plate", "plate.####.exr", "--pixel-aspect", aspect, "--matte",
+                           "masks/####.png", "--json"},
+                          form));
+    };
+    const Outcome found = found_with("2"), square = found_with("1");
+    expect_success(found);
+    expect_success(square);
+    const auto tilt = [](const Outcome& outcome) {
+        return Json::parse(outcome.out)["forms"][0]["tilt_deg"].get<double>();
+    };
+    EXPECT_GT(std::abs(tilt(found) - tilt(square)), 1) << "another camera";
+}
+
 TEST_F(AnamorphicPlate, WrongAspectsAreRefused) {
     for (const char* wrong : {"0", "-2", "nan", "inf", "100", "0.01", "wide"}) {
         const Outcome outcome = lay("plate.####.exr", {"--pixel-aspect", wrong});
