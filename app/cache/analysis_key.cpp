@@ -24,6 +24,7 @@ struct Files {
     Fingerprints& known;
     const PaintedMattes& painted;  // those without a file
     int first_frame;               // of the plate
+    PixelAspect aspect;            // likewise
 };
 
 void add(Hasher& hasher, const Expected<Hash128>& file) {
@@ -95,6 +96,7 @@ Status add_matte(Hasher& hasher, const MatteSource& matte, const Files& files) {
                   files);
     if (!matte.shape.empty()) {
         add_shape(hasher.text("shape"), matte.shape);
+        if (!files.aspect.square()) hasher.value(files.aspect.ratio());
         if (matte.shape.follow != ShapeFollow::kNone) add_file(hasher, matte.shape.track, files);
     }
     add_settings(hasher, matte);
@@ -352,7 +354,8 @@ void RegionKeys::adopt(
 Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
                                  const PaintedMattes& painted) {
     const FrameReader& plate = *shot.plate;
-    const Files files{*shot.files, painted, plate.shown_frame(plate.frames().front())};
+    const Files files{*shot.files, painted, plate.shown_frame(plate.frames().front()),
+                      PixelAspect(plate.pixel_aspect())};
     WEFT_TRY(surface, surface_key(shot, index, files));
     const Region& region = *shot.project.regions[shot.region_index[index]];
     WEFT_TRY(form, form_key(shot, index, surface, files));

@@ -26,7 +26,8 @@ class ProjectSource final : public ShotSource {
           cuts_(std::move(cuts)),
           inputs_(std::move(inputs)),
           painted_(std::move(painted)),
-          drawn_(plate_->size(), plate_->frames().empty() ? 0 : plate_->frames().front()) {}
+          drawn_(plate_->size(), plate_->frames().empty() ? 0 : plate_->frames().front(),
+                 PixelAspect(plate_->pixel_aspect())) {}
 
     [[nodiscard]] Size size() const override { return plate_->size(); }
 
