@@ -16,7 +16,7 @@ namespace {
 
 // Increase this when the result of the analysis changes.
 constexpr int kAnalysisVersion = 65;
-constexpr int kFormVersion = 9;   // of the form alone
+constexpr int kFormVersion = 10;  // of the form alone
 constexpr int kFocusVersion = 2;  // of the focus alone
 
 // What keys know files by.
@@ -24,6 +24,7 @@ struct Files {
     Fingerprints& known;
     const PaintedMattes& painted;  // those without a file
     int first_frame;               // of the plate
+    PixelAspect aspect;            // likewise
 };
 
 void add(Hasher& hasher, const Expected<Hash128>& file) {
@@ -95,6 +96,7 @@ Status add_matte(Hasher& hasher, const MatteSource& matte, const Files& files) {
                   files);
     if (!matte.shape.empty()) {
         add_shape(hasher.text("shape"), matte.shape);
+        if (!files.aspect.square()) hasher.value(files.aspect.ratio());
         if (matte.shape.follow != ShapeFollow::kNone) add_file(hasher, matte.shape.track, files);
     }
     add_settings(hasher, matte);
@@ -219,6 +221,7 @@ Expected<std::string> surface_key(const Shot& shot, std::size_t index, const Fil
             .value(plan.placement.scale)
             .value(plan.placement.rotate_deg);
         hasher.value(plan.placement.offset_px.x).value(plan.placement.offset_px.y);
+        if (!plan.placement.aspect.square()) hasher.value(plan.placement.aspect.ratio());
         if (plan.placement.corners) {
             for (const Vec2 c : *plan.placement.corners)
                 hasher.value(c.x).value(c.y);
@@ -252,6 +255,7 @@ Expected<std::string> form_key(const Shot& shot, std::size_t index, const std::s
     Hasher hasher;
     hasher.text("form").value(kFormVersion).text(surface);
     add_form_settings(hasher, region);
+    hasher.value(plan.placement.aspect.ratio());
     if (reads_form(plan.form_from))
         WEFT_CHECK_OK(add_pattern(hasher, form_files(region).pattern, files));
     for (const int frame : plan.form_evidence)
@@ -350,7 +354,8 @@ void RegionKeys::adopt(
 Expected<RegionKeys> region_keys(const Shot& shot, std::size_t index,
                                  const PaintedMattes& painted) {
     const FrameReader& plate = *shot.plate;
-    const Files files{*shot.files, painted, plate.shown_frame(plate.frames().front())};
+    const Files files{*shot.files, painted, plate.shown_frame(plate.frames().front()),
+                      PixelAspect(plate.pixel_aspect())};
     WEFT_TRY(surface, surface_key(shot, index, files));
     const Region& region = *shot.project.regions[shot.region_index[index]];
     WEFT_TRY(form, form_key(shot, index, surface, files));

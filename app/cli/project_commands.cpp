@@ -17,6 +17,7 @@
 #include "engine/core/frame_range.h"
 #include "engine/core/input_file.h"
 #include "engine/core/printable.h"
+#include "engine/core/short_number.h"
 #include "engine/core/text.h"
 #include "engine/media/atomic_file.h"
 
@@ -230,15 +231,19 @@ CommandResult info_command(const std::string& path) {
           {"size", {plate.size().width, plate.size().height}},
           {"frames", frames},
           {"fps", plate.fps()},
+          {"pixel_aspect", plate.pixel_aspect()},
           {"space", shot->spaces.plate.name}}},
         {"render", {{"frames", wanted}, {"output", project.output.path}}},
         {"spaces", {{"working", shot->spaces.working.name}, {"out", shot->spaces.out.name}}},
         {"regions", regions},
         {"warnings", shot->warnings}};
+    const double aspect = plate.pixel_aspect();
+    const std::string shape = aspect == 1 ? "" : "  pixel aspect " + short_number(aspect, 4);
     answer.text = path + "\nplate    " + written.plate.path + "  " + size_text(plate.size()) +
-                  "  frames " + frames + "  " + shot->spaces.plate.name + "\nrender   frames " +
-                  wanted + "  to " + written.output.path + "\n" + references + "regions  " +
-                  std::to_string(written.regions.size()) + "\n" + regions_text(written);
+                  shape + "  frames " + frames + "  " + shot->spaces.plate.name +
+                  "\nrender   frames " + wanted + "  to " + written.output.path + "\n" +
+                  references + "regions  " + std::to_string(written.regions.size()) + "\n" +
+                  regions_text(written);
     return answer;
 }
 

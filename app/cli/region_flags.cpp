@@ -48,8 +48,8 @@ bool begins_with_any(std::string_view flag, std::initializer_list<std::string_vi
 }
 
 bool is_plate_flag(std::string_view flag) {
-    return begins_with_any(
-        flag, {"--plate", "--plate-layer", "--movie-start", "--plate-space", "--fps", "--missing"});
+    return begins_with_any(flag, {"--plate", "--plate-layer", "--movie-start", "--plate-space",
+                                  "--fps", "--pixel-aspect", "--missing"});
 }
 
 bool is_output_flag(std::string_view flag) {

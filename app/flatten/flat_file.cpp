@@ -56,7 +56,6 @@ Expected<std::vector<std::string>> write_flat_file(const std::string& path,
                   : ending_of(path) == ".png" ? PixelDepth::kU8
                                               : PixelDepth::kU16;
     write.exr_compression = "zip";
-    write.pixel_aspect = 1;
     if (!is_open_raster(path)) {
         WEFT_CHECK_OK(write_image(path, surface, alpha, write));
         return std::vector<std::string>();

@@ -187,6 +187,8 @@ Expected<FlattenResult> run_flatten(const FlattenSpec& spec, const CancelToken& 
     WEFT_CHECK_OK(check_unchanged(run.shot->inputs->changed()));
     WriteOptions write;
     write.rule = run.rule;
+    // The picture lies on the plate's own pixels.
+    write.pixel_aspect = run.shot->plate->pixel_aspect();
     write.metadata = recipe_metadata(*run.shot, run.backend->name());
     WEFT_CHECK_OK(make_folder_of(spec.path, run.rule));
     WEFT_TRY(layers, write_flat_file(spec.path, {surface, texture.empty() ? nullptr : &texture},

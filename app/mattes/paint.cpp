@@ -56,18 +56,18 @@ cv::Mat signed_distance(const Matte& matte) {
 
 // The columns of a row within `reach` of a line. A long slanting line touches little of its
 // bounding box.
-std::pair<int, int> columns_near(Vec2 from, Vec2 to, float y, float reach, Recti box) {
+std::pair<int, int> columns_near(Vec2 from, Vec2 to, float y, Vec2 reach, Recti box) {
     float first = 0, last = 1;
     if (const float down = to.y - from.y; std::abs(down) > 1e-3f) {
-        first = (y - reach - from.y) / down;
-        last = (y + reach - from.y) / down;
+        first = (y - reach.y - from.y) / down;
+        last = (y + reach.y - from.y) / down;
         if (first > last) std::swap(first, last);
         first = std::clamp(first, 0.0f, 1.0f);
         last = std::clamp(last, 0.0f, 1.0f);
     }
     const float a = from.x + first * (to.x - from.x), b = from.x + last * (to.x - from.x);
-    return {std::max(box.x0, static_cast<int>(std::floor(std::min(a, b) - reach))),
-            std::min(box.x1, static_cast<int>(std::ceil(std::max(a, b) + reach)))};
+    return {std::max(box.x0, static_cast<int>(std::floor(std::min(a, b) - reach.x))),
+            std::min(box.x1, static_cast<int>(std::ceil(std::max(a, b) + reach.x)))};
 }
 
 }  // namespace
@@ -101,13 +101,15 @@ Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
     last_ = to;
     last_radius_ = radius;
     last_pressure_ = strength;
-    const float reach = std::max(radius, from_radius) + 2.0f;
-    const Recti box = Recti{static_cast<int>(std::floor(std::min(from.x, to.x) - reach)),
-                            static_cast<int>(std::floor(std::min(from.y, to.y) - reach)),
-                            static_cast<int>(std::ceil(std::max(from.x, to.x) + reach)),
-                            static_cast<int>(std::ceil(std::max(from.y, to.y) + reach))}
+    const PixelAspect aspect = brush_.aspect;
+    const float widest = std::max(radius, from_radius);
+    const Vec2 reach = aspect.squeezed(Vec2(widest, widest)) + 2.0f;
+    const Recti box = Recti{static_cast<int>(std::floor(std::min(from.x, to.x) - reach.x)),
+                            static_cast<int>(std::floor(std::min(from.y, to.y) - reach.y)),
+                            static_cast<int>(std::ceil(std::max(from.x, to.x) + reach.x)),
+                            static_cast<int>(std::ceil(std::max(from.y, to.y) + reach.y))}
                           .intersected(rect_of(matte.size()));
-    const Vec2 along = to - from;
+    const Vec2 along = aspect.unsqueezed(to - from);
     const float length2 = along.x * along.x + along.y * along.y;
     const float target = brush_.subtract ? 0.0f : 255.0f;
     for (int y = box.y0; y < box.y1; ++y) {
@@ -115,7 +117,8 @@ Recti Stroke::move_to(Vec2 to, float pressure, Matte& matte) {
         std::uint8_t* covered =
             coverage_.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(matte.width());
         for (int x = x0; x < x1; ++x) {
-            const Vec2 p = Vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f - from;
+            const Vec2 p =
+                aspect.unsqueezed(Vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f - from);
             const float t = length2 > 0
                                 ? std::clamp((p.x * along.x + p.y * along.y) / length2, 0.0f, 1.0f)
                                 : 0.0f;

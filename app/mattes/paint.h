@@ -9,15 +9,17 @@
 
 #include "engine/core/geometry.h"
 #include "engine/core/image.h"
+#include "engine/core/pixel_aspect.h"
 
 namespace weft {
 
 struct Brush {
-    float radius_px = 24;
+    float radius_px = 24;   ///< Unsqueezed.
     float hardness = 0.8f;  ///< 1: hard edge; 0: soft from the centre.
     float opacity = 1;      ///< Opacity of the whole stroke, where it crosses itself too.
     bool subtract = false;
     bool pressure_size = true, pressure_opacity = false;  ///< What pen pressure controls.
+    PixelAspect aspect = {};  ///< Of what it paints on; it is round on the picture unsqueezed.
     bool operator==(const Brush&) const = default;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 Expected<OpenedPlate> opened(const Plate& plate) {
     OpenedPlate out;
-    WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
+    WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start, plate.pixel_aspect}));
     out.reader = reader;
     out.space = plate.space.empty() ? reader->color().space : plate.space;
     WEFT_TRY(space, parse_color_space(out.space));

@@ -46,15 +46,15 @@ void draw_grid(const TextureCoords& coords, Size sample, OverlayPicture& out) {
     });
 }
 
-// Draws the linear magnification of texels relative to the placement.
-void draw_stretch(const TextureCoords& coords, OverlayPicture& out) {
+// Draws the linear magnification of texels relative to the placement, in unsqueezed pixels.
+void draw_stretch(const TextureCoords& coords, PixelAspect aspect, OverlayPicture& out) {
     out.low = 0;
     out.high = 3;
     out.unit = "px per texel";
     for (int y = 0; y < out.value.height(); ++y) {
         for (int x = 0; x < out.value.width(); ++x) {
             if (out.where.at(x, y) == 0) continue;
-            const float area = jacobian(coords.uv, x, y).area();
+            const float area = jacobian(coords.uv, x, y).area() / aspect.ratio();
             out.value.at(x, y) = code(1.0f / std::sqrt(std::max(area, 1e-6f)) / out.high);
         }
     }
@@ -351,7 +351,7 @@ Expected<OverlayPicture> OverlayMaker::make(Overlay kind, const Shot& shot,
             draw_grid(coords, plan.texture->pixels.size(), out);
             break;
         case Overlay::kStretch:
-            draw_stretch(coords, out);
+            draw_stretch(coords, plan.placement.aspect, out);
             break;
         case Overlay::kSeams:
             if (plane) draw_seams(coords, *plane, out);

@@ -68,9 +68,13 @@ std::map<RegionId, Quad<float>> Preview::Impl::found_planes() const {
         // Corners replace a form from motion; any other one stays beneath them.
         const RegionPlan& plan = shot.plan.regions[k];
         if (plan.form_from != RegionPlan::FormFrom::kMotion)
-            for (Vec2& corner : *corners)
-                corner += plan.form_amount_at(plan.reference_frames.front()) *
-                          (*form)->finding.laid_share() * (*form)->at(corner);
+            for (Vec2& corner : *corners) {
+                const PixelAspect aspect = (*form)->aspect;
+                const Vec2 moved = plan.form_amount_at(plan.reference_frames.front()) *
+                                   (*form)->finding.laid_share() *
+                                   (*form)->at(aspect.unsqueezed(corner));
+                corner += aspect.squeezed(moved);
+            }
         out[shot.project.regions[shot.region_index[k]]->id] = *corners;
     }
     return out;

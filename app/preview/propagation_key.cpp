@@ -38,6 +38,7 @@ std::string propagation_key(const Project& absolute, const Region& region, int l
     Hasher hasher;
     hasher.text(plate.path).text(plate.layer).text(plate.space);
     hasher.value(plate.movie_start).value(static_cast<int>(plate.missing));
+    hasher.value(plate.pixel_aspect.value_or(0));  // of shapes
     add_source(hasher, layer_source(region, layer), but);
     // What is in front of a matte hides the surface that it is propagated along.
     if (layer <= 0)

@@ -177,8 +177,10 @@ class ProxyStore final : public AnalysisStore {
             }
             case AnalysisKind::kForm: {
                 WEFT_TRY(form, decode_form(bytes));
-                return encode(FormMap{form.origin / static_cast<float>(factor_),
-                                      shrunk(form.displacement, factor_), form.finding});
+                FormMap small{form.origin / static_cast<float>(factor_),
+                              shrunk(form.displacement, factor_), form.finding};
+                small.aspect = form.aspect;
+                return encode(small);
             }
             case AnalysisKind::kStillSurface: {
                 WEFT_TRY(still, decode_still_surface(bytes));

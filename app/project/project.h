@@ -68,6 +68,8 @@ struct Plate {
     int movie_start = 1001;  ///< Number of a movie's first frame.
     std::string space;       ///< Colour space; empty: auto, from the file type.
     double fps = 0;          ///< 0: from the files, otherwise 24.
+    /// Width of a pixel over its height; unset: from the files, otherwise 1.
+    std::optional<double> pixel_aspect;
     MissingFrames missing = MissingFrames::kError;
     Extras extra;
     bool operator==(const Plate&) const = default;

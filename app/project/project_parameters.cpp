@@ -1,4 +1,5 @@
 #include "app/project/parameter_entry.h"
+#include "engine/core/pixel_aspect.h"
 
 namespace weft {
 namespace {
@@ -37,6 +38,14 @@ std::vector<Parameter<Project>> make_project_table() {
                                           .help = "Frame rate; 0: the plate's",
                                           .min = 0,
                                           .max = 1000}),
+        entry<P, &P::plate, &Plate::pixel_aspect>(
+            {.group = "plate",
+             .key = "pixel_aspect",
+             .flag = "--pixel-aspect",
+             .help = "Pixel width divided by height: 2 for anamorphic; default the plate's",
+             .min = PixelAspect::kLeast,
+             .max = PixelAspect::kMost,
+             .optional = true}),
         entry<P, &P::plate, &Plate::missing>(
             {.group = "plate",
              .key = "missing",

@@ -155,7 +155,8 @@ struct Session::Parts::Actor {
 
     // ---- textures ----
     void operator()(const ScaleByLine& a) const {
-        s.textures_.scale_by_line(a, s.selection_.region);
+        s.textures_.scale_by_line(s.plate_.aspect().unsqueezed(a.to - a.from), a.count,
+                                  s.selection_.region);
     }
     void operator()(const ApplyTexture& a) const {
         s.textures_.apply(a.path, a.region ? a.region : s.selection_.region);

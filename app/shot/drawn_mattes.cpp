@@ -25,21 +25,21 @@ Expected<std::shared_ptr<const CornerTrack>> DrawnMattes::track_of(const KeyedSh
 
 Expected<RotoShape> DrawnMattes::shape(const KeyedShape& shape, int frame) const {
     WEFT_TRY(track, track_of(shape));
-    return shape_on(shape, *track, frame);
+    return shape_on(shape, *track, frame, aspect_);
 }
 
 std::optional<RotoShape> DrawnMattes::known_shape(const KeyedShape& shape, int frame) const {
-    if (shape.follow == ShapeFollow::kNone) return shape_on(shape, {}, frame);
+    if (shape.follow == ShapeFollow::kNone) return shape_on(shape, {}, frame, aspect_);
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return std::nullopt;
     const auto known = tracks_.find(shape.track);
     if (known == tracks_.end() || !known->second) return std::nullopt;
-    return shape_on(shape, *known->second, frame);
+    return shape_on(shape, *known->second, frame, aspect_);
 }
 
 Expected<Matte> DrawnMattes::matte(const KeyedShape& shape, bool invert, int frame) const {
     WEFT_TRY(here, this->shape(shape, frame));
-    Matte out = matte_of_shape(here, size_);
+    Matte out = matte_of_shape(here, size_, aspect_);
     if (invert)
         std::transform(out.data(), out.data() + out.size_bytes(), out.data(),
                        [](std::uint8_t v) { return static_cast<std::uint8_t>(255 - v); });

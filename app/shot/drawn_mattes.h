@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/core/hash.h"
 #include "engine/core/image.h"
+#include "engine/core/pixel_aspect.h"
 #include "engine/media/frame_reader.h"
 #include "engine/motion/corner_track.h"
 
@@ -19,8 +20,9 @@ namespace weft {
 /// Shapes of a shot on its frames. Each track is read once. Paths are absolute. Thread-safe.
 class DrawnMattes {
   public:
-    /// Of the plate: its size and its first frame.
-    DrawnMattes(Size size, int first_frame) : size_(size), first_frame_(first_frame) {}
+    /// Of the plate: its size, its first frame and the shape of its pixels.
+    DrawnMattes(Size size, int first_frame, PixelAspect aspect = {})
+        : size_(size), first_frame_(first_frame), aspect_(aspect) {}
 
     /// Errors: Unreadable (the track), Usage (it follows, but has no track).
     [[nodiscard]] Expected<RotoShape> shape(const KeyedShape& shape, int frame) const;
@@ -35,6 +37,7 @@ class DrawnMattes {
 
     Size size_;
     int first_frame_;
+    PixelAspect aspect_;
     mutable std::mutex mutex_;
     mutable std::map<std::string, std::shared_ptr<const CornerTrack>> tracks_;
 };

@@ -5,6 +5,7 @@
 
 #include "engine/core/setting.h"
 #include "engine/core/text.h"
+#include "engine/core/unsqueezed_image.h"
 #include "engine/form/camera_rotation.h"
 #include "engine/form/depth_positions.h"
 #include "engine/media/form_passes.h"
@@ -18,8 +19,9 @@ HeaderCamera header_of(const std::string& path) {
     return camera ? *camera : HeaderCamera();
 }
 
+// Of the picture unsqueezed.
 Expected<ViewCamera> view_camera(const FormParams& form, const HeaderCamera& header,
-                                 const std::string& path, Size plate) {
+                                 const std::string& path, const PassPlate& plate) {
     const std::optional<double> fov_deg = form.fov_deg ? form.fov_deg : header.fov_deg;
     if (!fov_deg) {
         return fail(ErrorCode::kUnreadable,
@@ -28,20 +30,22 @@ Expected<ViewCamera> view_camera(const FormParams& form, const HeaderCamera& hea
                         "not in its header.",
                     "Set it in degrees" + by({{setting::kFov}}) + ".");
     }
-    return camera_with(*fov_deg, plate);
+    return camera_with(*fov_deg, plate.aspect.unsqueezed(plate.size));
 }
 
 // How the camera is turned, from the position pass of the same render.
 std::optional<std::array<double, 9>> rotation_by_places(const FormParams& form,
-                                                        const std::string& path, Size plate,
+                                                        const std::string& path,
+                                                        const PassPlate& plate,
                                                         const ViewCamera& camera) {
     const auto normals = locate_normals(path, form.normal_layer);
     if (!normals) return std::nullopt;
     const auto pass = locate_positions(path, {}, {normals->layer.name});
     // A file with nothing but the normals is no position pass.
     if (!pass || pass->layer.name == normals->layer.name) return std::nullopt;
-    const auto places = read_positions(path, pass->layer.name, plate);
-    return places ? camera_rotation(*places, camera) : std::nullopt;
+    auto places = read_positions(path, pass->layer.name, plate.size);
+    if (!places) return std::nullopt;
+    return camera_rotation(unsqueezed(std::move(*places), plate.aspect), camera);
 }
 
 // Whether a shape or a plane's strokes are drawn.
@@ -100,12 +104,14 @@ void add_form_settings(Hasher& hasher, const Region& region) {
     }
 }
 
-Expected<ImageF3> read_form_places(const Region& region, const std::string& path, Size plate) {
+Expected<ImageF3> read_form_places(const Region& region, const std::string& path,
+                                   const PassPlate& plate) {
     const FormParams& form = region.form;
-    if (form.source != FormSource::kDepth) return read_positions(path, form.position_layer, plate);
-    WEFT_TRY(depth, read_depth(path, region.finish.depth_layer, plate));
+    if (form.source != FormSource::kDepth)
+        return read_positions(path, form.position_layer, plate.size);
+    WEFT_TRY(depth, read_depth(path, region.finish.depth_layer, plate.size));
     WEFT_TRY(camera, view_camera(form, header_of(path), path, plate));
-    return positions_from_depth(depth, form.depth_kind, camera);
+    return positions_from_depth(depth, form.depth_kind, camera, plate.aspect);
 }
 
 NormalAxes axes_of_normals(const FormParams& form, const std::string& path) {
@@ -119,9 +125,10 @@ NormalAxes axes_of_normals(const FormParams& form, const std::string& path) {
     return NormalAxes::kPresumedCamera;
 }
 
-Expected<NormalPass> read_form_normals(const Region& region, const std::string& path, Size plate) {
+Expected<NormalPass> read_form_normals(const Region& region, const std::string& path,
+                                       const PassPlate& plate) {
     const FormParams& form = region.form;
-    WEFT_TRY(normals, read_normals(path, form.normal_layer, plate));
+    WEFT_TRY(normals, read_normals(path, form.normal_layer, plate.size));
     const HeaderCamera header = header_of(path);
     WEFT_TRY(camera, view_camera(form, header, path, plate));
     if (axes_of_normals(form, path) != NormalAxes::kWorld)

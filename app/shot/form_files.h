@@ -23,10 +23,16 @@ struct FormFiles {
 /// Hashes all settings on which what the pass shows depends, but the files themselves.
 void add_form_settings(Hasher& hasher, const Region& region);
 
+/// What passes are read for.
+struct PassPlate {
+    Size size;
+    PixelAspect aspect = {};
+};
+
 /// The places that one file of the pass shows, from a position or a depth pass. Errors: those of
 /// reading; Unreadable if a depth pass comes without a field of view.
 [[nodiscard]] Expected<ImageF3> read_form_places(const Region& region, const std::string& path,
-                                                 Size plate);
+                                                 const PassPlate& plate);
 /// The axes of a normal pass.
 enum class NormalAxes {
     kCamera,
@@ -40,6 +46,6 @@ enum class NormalAxes {
 /// field of view, or if they are in the world's axes and neither the header nor a position pass in
 /// the same file tells the camera's.
 [[nodiscard]] Expected<NormalPass> read_form_normals(const Region& region, const std::string& path,
-                                                     Size plate);
+                                                     const PassPlate& plate);
 
 }  // namespace weft

@@ -26,7 +26,8 @@ class ProjectSource final : public ShotSource {
           cuts_(std::move(cuts)),
           inputs_(std::move(inputs)),
           painted_(std::move(painted)),
-          drawn_(plate_->size(), plate_->frames().empty() ? 0 : plate_->frames().front()) {}
+          drawn_(plate_->size(), plate_->frames().empty() ? 0 : plate_->frames().front(),
+                 PixelAspect(plate_->pixel_aspect())) {}
 
     [[nodiscard]] Size size() const override { return plate_->size(); }
 
@@ -147,12 +148,12 @@ class ProjectSource final : public ShotSource {
 
     [[nodiscard]] Expected<ImageF3> positions(int region, int frame) const override {
         WEFT_TRY(pattern, SequencePattern::parse(form_files(at(region)).pattern));
-        return read_form_places(at(region), watched(path_on(pattern, frame)), size());
+        return read_form_places(at(region), watched(path_on(pattern, frame)), pass_plate());
     }
 
     [[nodiscard]] Expected<NormalPass> normals(int region, int frame) const override {
         WEFT_TRY(pattern, SequencePattern::parse(form_files(at(region)).pattern));
-        return read_form_normals(at(region), watched(path_on(pattern, frame)), size());
+        return read_form_normals(at(region), watched(path_on(pattern, frame)), pass_plate());
     }
 
     [[nodiscard]] Expected<ImageF3> light_pass(int region, int frame) const override {
@@ -178,6 +179,9 @@ class ProjectSource final : public ShotSource {
   private:
     [[nodiscard]] const Region& at(int region) const {
         return *regions_[static_cast<std::size_t>(region)];
+    }
+    [[nodiscard]] PassPlate pass_plate() const {
+        return {size(), PixelAspect(plate_->pixel_aspect())};
     }
     // The file of a pass: one per frame, or one for all.
     [[nodiscard]] std::string pass_on(const std::string& files, int frame) const {

@@ -169,8 +169,10 @@ Status project_motion(const MotionSource& motion, RegionPlan& plan) {
                 "Keep one of the two" + by({{setting::kTrack}, {setting::kMotion}}) + ".");
 }
 
-Status project_placement(const Placement& placement, TemporalMode mode, RegionPlan& plan) {
+Status project_placement(const Placement& placement, TemporalMode mode, PixelAspect aspect,
+                         RegionPlan& plan) {
     plan.placement = plane_placement(placement);
+    plan.placement.aspect = aspect;
     plan.scale_keys = placement.scale_keys;
     plan.rotate_keys = placement.rotate_keys;
     plan.offset_keys = placement.offset_keys;
@@ -225,6 +227,8 @@ Status project_drawn_form(const Region& region, bool laid, RegionPlan& plan) {
     plan.form_guides = region.form.shape;
     plan.form_guides.insert(plan.form_guides.end(), region.form.strokes.begin(),
                             region.form.strokes.end());
+    for (FormGuide& guide : plan.form_guides)
+        guide = unsqueezed(std::move(guide), plan.placement.aspect);
     return {};
 }
 
@@ -240,7 +244,7 @@ Status project_form(const Region& region, RegionPlan& plan) {
     if (!(plan.form_amount > 0) || pass.from == RegionPlan::FormFrom::kNothing) return {};
     for (const FormGuide& stroke : region.form.strokes)
         if (stroke.kind == FormGuideKind::kLevel || stroke.kind == FormGuideKind::kCut)
-            plan.form_guides.push_back(stroke);
+            plan.form_guides.push_back(unsqueezed(stroke, plan.placement.aspect));
     const bool locked = region.temporal.mode == TemporalMode::kLocked;
     if (pass.from == RegionPlan::FormFrom::kMotion) {
         // Corners are the artist's own perspective.

@@ -28,7 +28,7 @@ void project_corrections(const std::map<int, std::vector<CorrectionPin>>& correc
 /// Errors: Usage for keys or a UV pass in a mode that synthesizes the texture in place, and for
 /// corners that no plane can have.
 [[nodiscard]] Status project_placement(const Placement& placement, TemporalMode mode,
-                                       RegionPlan& plan);
+                                       PixelAspect aspect, RegionPlan& plan);
 
 /// After project_placement(). Errors: Usage for a pass or shape in a mode that synthesizes the
 /// texture in place, or beside a UV pass; for a source whose pass or drawing is missing, and for a

@@ -76,7 +76,8 @@ class ShotOpener {
                         "Choose one" + by({{setting::kPlate}}) + ".");
         shot_.plate = options_.plate;
         if (!shot_.plate) {
-            WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start}));
+            WEFT_TRY(reader,
+                     open_plate(plate.path, {plate.layer, plate.movie_start, plate.pixel_aspect}));
             std::vector<int> wanted;
             if (!shot_.project.settings.frames.empty()) {
                 WEFT_TRY(list, parse_frame_list(shot_.project.settings.frames));
@@ -191,7 +192,8 @@ class ShotOpener {
         project_corrections(region.corrections, plan);
         WEFT_CHECK_OK(project_motion(region.motion, plan));
         WEFT_CHECK_OK(add_track(region.motion, plan));
-        WEFT_CHECK_OK(project_placement(region.placement, region.temporal.mode, plan));
+        WEFT_CHECK_OK(project_placement(region.placement, region.temporal.mode,
+                                        PixelAspect(shot_.plate->pixel_aspect()), plan));
         WEFT_CHECK_OK(project_form(region, plan));
         project_synthesis(region.synthesis, plan);
         plan.amendments = *region.amendments;

@@ -10,9 +10,9 @@ namespace weft {
 class SurfaceForm {
   public:
     virtual ~SurfaceForm() = default;
-    /// The flat place of a pixel of the reference frame, in pixels; smooth, inside of the frame and
-    /// beyond it.
-    [[nodiscard]] virtual Vec2 flat(Vec2 pixel) const = 0;
+    /// The flat place of a place of the reference frame, both in unsqueezed pixels (PixelAspect);
+    /// smooth, inside of the frame and beyond it.
+    [[nodiscard]] virtual Vec2 flat(Vec2 unsqueezed) const = 0;
     /// The same form less pronounced: `share` from 0, flat, to 1, as it is.
     [[nodiscard]] virtual std::shared_ptr<const SurfaceForm> at_share(float share) const = 0;
 };

@@ -8,27 +8,28 @@
 #include <utility>
 
 #include "engine/core/geometry.h"
+#include "engine/core/pixel_aspect.h"
 #include "engine/core/plane_warp.h"
 #include "engine/core/surface_form.h"
 
 namespace weft {
 
 /// The texture coordinates of the reference frame: the one function through which every stage asks
-/// which texel a place of the reference frame shows. A grid warp, if there is one, is undone, then
-/// the surface is laid flat by its form, if it has one, and then a homography acts, that of the
-/// artist's placement. Immutable and thread-safe.
+/// which texel a place of the reference frame shows. A grid warp, if there is one, is undone, the
+/// place is unsqueezed, the surface is laid flat by its form, if it has one, and then a homography
+/// acts, that of the artist's placement. Immutable and thread-safe.
 class TextureMapping {
   public:
     /// A texel for every pixel, both from (0, 0).
     TextureMapping() = default;
-    /// `texel_from_reference`: an invertible homography, in texels and pixels.
-    explicit TextureMapping(const Mat3& texel_from_reference)
-        : texel_from_reference_(texel_from_reference) {}
+    /// `texel_from_unsqueezed`: an invertible homography, in texels and unsqueezed pixels.
+    explicit TextureMapping(const Mat3& texel_from_unsqueezed, PixelAspect aspect = {})
+        : texel_from_unsqueezed_(texel_from_unsqueezed), aspect_(aspect) {}
 
     /// The texel, unwrapped, of a place in pixels of the reference frame. Not finite on the horizon
     /// of a plane in perspective.
     [[nodiscard]] Vec2 texel(Vec2 pixel) const {
-        return project(texel_from_reference_, flat(pixel));
+        return project(texel_from_unsqueezed_, flat(pixel));
     }
 
     /// The same placement on a surface of this form; null: flat.
@@ -56,7 +57,7 @@ class TextureMapping {
         Vec2 texel;  ///< Of the place itself.
         Mat3 map{1};
         float depth = 1;    ///< Third homogeneous coordinate there.
-        glm::mat2 form{1};  ///< Of the warp undone and the surface laid flat, by pixel.
+        glm::mat2 form{1};  ///< Of the surface unsqueezed and laid flat, the warp undone, by pixel.
         /// Texels for a step of that many pixels on the reference frame.
         [[nodiscard]] Vec2 step(Vec2 pixels) const {
             // d(p.xy / p.z) = (dp.xy − u dp.z) / p.z
@@ -65,11 +66,13 @@ class TextureMapping {
         }
     };
     [[nodiscard]] Linear linear_at(Vec2 pixel) const {
-        const Vec3 p = texel_from_reference_ * Vec3(flat(pixel), 1.0f);
-        Linear out{Vec2(p.x, p.y) / p.z, texel_from_reference_, p.z};
+        const Vec3 p = texel_from_unsqueezed_ * Vec3(flat(pixel), 1.0f);
+        Linear out{Vec2(p.x, p.y) / p.z, texel_from_unsqueezed_, p.z};
         if (bends()) {
             const Vec2 x(0.5f, 0), y(0, 0.5f);
             out.form = {flat(pixel + x) - flat(pixel - x), flat(pixel + y) - flat(pixel - y)};
+        } else {
+            out.form[0][0] = aspect_.ratio();
         }
         return out;
     }
@@ -104,19 +107,25 @@ class TextureMapping {
     /// frame that shows a texel.
     class Inverse {
       public:
-        explicit Inverse(const Mat3& reference_from_texel) : map_(reference_from_texel) {}
-        [[nodiscard]] Vec2 pixel(Vec2 texel) const { return project(map_, texel); }
+        Inverse(const Mat3& unsqueezed_from_texel, PixelAspect aspect)
+            : map_(unsqueezed_from_texel), aspect_(aspect) {}
+        [[nodiscard]] Vec2 pixel(Vec2 texel) const {
+            return aspect_.squeezed(project(map_, texel));
+        }
 
       private:
         Mat3 map_;
+        PixelAspect aspect_;
     };
-    [[nodiscard]] Inverse inverse() const { return Inverse(glm::inverse(texel_from_reference_)); }
+    [[nodiscard]] Inverse inverse() const {
+        return {glm::inverse(texel_from_unsqueezed_), aspect_};
+    }
 
     /// The same texture on a reference frame that is `factor` times smaller, factor > 0.
     [[nodiscard]] TextureMapping on_smaller_frame(float factor) const {
         Mat3 enlarge(1);
         enlarge[0][0] = enlarge[1][1] = factor;
-        TextureMapping out(texel_from_reference_ * enlarge);
+        TextureMapping out(texel_from_unsqueezed_ * enlarge, aspect_);
         out.form_ = form_;
         out.warp_ = warp_;
         out.smaller_ = smaller_ * factor;
@@ -128,13 +137,15 @@ class TextureMapping {
   private:
     [[nodiscard]] bool bends() const { return form_ != nullptr || warp_ != nullptr; }
     [[nodiscard]] Vec2 flat(Vec2 pixel) const {
-        if (!bends()) return pixel;
+        if (!bends()) return aspect_.unsqueezed(pixel);
         Vec2 at = pixel * smaller_;
         if (warp_) at = warp_->rest(at);
+        at = aspect_.unsqueezed(at);
         return (form_ ? form_->flat(at) : at) / smaller_;
     }
 
-    Mat3 texel_from_reference_{1};
+    Mat3 texel_from_unsqueezed_{1};
+    PixelAspect aspect_;
     std::shared_ptr<const SurfaceForm> form_;  // these two of the frame at full size
     std::shared_ptr<const PlaneWarp> warp_;
     float smaller_ = 1;

@@ -7,7 +7,8 @@
 
 namespace weft {
 
-ImageF3 positions_from_depth(const ImageF1& depth, DepthKind kind, const ViewCamera& camera) {
+ImageF3 positions_from_depth(const ImageF1& depth, DepthKind kind, const ViewCamera& camera,
+                             PixelAspect aspect) {
     constexpr float kNowhere = 1e10f;
     ImageF3 out(depth.size(), std::numeric_limits<float>::quiet_NaN());
     parallel_rows(out.height(), 32, [&](int y0, int y1) {
@@ -15,8 +16,8 @@ ImageF3 positions_from_depth(const ImageF1& depth, DepthKind kind, const ViewCam
             for (int x = 0; x < out.width(); ++x) {
                 const float d = depth.row(y)[x];
                 if (!(d > 0 && d < kNowhere)) continue;
-                const glm::dvec3 ray =
-                    camera.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+                const Vec2 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+                const glm::dvec3 ray = camera.ray(aspect.unsqueezed(centre));
                 const double length =
                     kind == DepthKind::kZ
                         ? 1.0

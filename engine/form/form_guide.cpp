@@ -14,6 +14,12 @@ constexpr double kLeast_px = 1;
 constexpr double kMostTilt_deg = 80;
 constexpr double kMost = 1e6;
 
+void scale_places(FormGuide& guide, double by) {
+    const std::size_t places = std::min(info_of(guide.kind).places, guide.numbers.size());
+    for (std::size_t k = 0; k < places; k += 2)
+        guide.numbers[k] *= by;
+}
+
 Expected<double> parse_number(std::string_view text) {
     double out = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
@@ -110,6 +116,16 @@ Status check_form_guide(const FormGuide& guide) {
         default:
             return check_round(guide);
     }
+}
+
+FormGuide unsqueezed(FormGuide guide, PixelAspect aspect) {
+    scale_places(guide, static_cast<double>(aspect.ratio()));
+    return guide;
+}
+
+FormGuide squeezed(FormGuide guide, PixelAspect aspect) {
+    scale_places(guide, 1 / static_cast<double>(aspect.ratio()));
+    return guide;
 }
 
 Expected<std::vector<FormGuide>> parse_form_guides(std::string_view text) {

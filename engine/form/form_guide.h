@@ -9,6 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/geometry.h"
+#include "engine/core/pixel_aspect.h"
 
 namespace weft {
 
@@ -31,17 +32,20 @@ struct FormGuideInfo {
     std::size_t least, most;  ///< Numbers.
     std::size_t step;         ///< Their number is `least` and a multiple of it.
     std::size_t pixels;       ///< How many of them, from the first on, are in plate pixels.
+    std::size_t places;       ///< How many of these are the x and y of places.
 };
 inline constexpr std::size_t kMostParallelNumbers = 64;
 /// The kinds by their names in files and on the command line.
 inline constexpr std::array<FormGuideInfo, 7> kFormGuides{
-    {{FormGuideKind::kPlane, "plane", 8, 8, 1, 8},
-     {FormGuideKind::kCylinder, "cylinder", 6, 7, 1, 6},
-     {FormGuideKind::kCone, "cone", 6, 7, 1, 6},
-     {FormGuideKind::kBall, "ball", 3, 3, 1, 3},
-     {FormGuideKind::kParallel, "parallel", 4, kMostParallelNumbers, 4, kMostParallelNumbers},
-     {FormGuideKind::kLevel, "level", 4, 4, 1, 4},
-     {FormGuideKind::kCut, "cut", 4, kMostParallelNumbers, 4, kMostParallelNumbers}}};
+    {{FormGuideKind::kPlane, "plane", 8, 8, 1, 8, 8},
+     {FormGuideKind::kCylinder, "cylinder", 6, 7, 1, 6, 4},
+     {FormGuideKind::kCone, "cone", 6, 7, 1, 6, 4},
+     {FormGuideKind::kBall, "ball", 3, 3, 1, 3, 2},
+     {FormGuideKind::kParallel, "parallel", 4, kMostParallelNumbers, 4, kMostParallelNumbers,
+      kMostParallelNumbers},
+     {FormGuideKind::kLevel, "level", 4, 4, 1, 4, 4},
+     {FormGuideKind::kCut, "cut", 4, kMostParallelNumbers, 4, kMostParallelNumbers,
+      kMostParallelNumbers}}};
 [[nodiscard]] constexpr const FormGuideInfo& info_of(FormGuideKind kind) {
     return kFormGuides[static_cast<std::size_t>(kind)];
 }
@@ -49,7 +53,8 @@ inline constexpr std::array<FormGuideInfo, 7> kFormGuides{
     return kind <= FormGuideKind::kBall;
 }
 
-/// A shape or a stroke on the reference frame. Tilts are in degrees, above 0 where the axis' second
+/// A shape or a stroke on the reference frame: places in plate pixels, radii and half widths in
+/// unsqueezed ones (PixelAspect). Tilts are in degrees, above 0 where the axis' second
 /// end is farther from the camera.
 struct FormGuide {
     FormGuideKind kind = FormGuideKind::kPlane;
@@ -60,6 +65,10 @@ struct FormGuide {
         return {numbers[first], numbers[first + 1]};
     }
 };
+
+/// The guide with its places unsqueezed, and with unsqueezed places squeezed again.
+[[nodiscard]] FormGuide unsqueezed(FormGuide guide, PixelAspect aspect);
+[[nodiscard]] FormGuide squeezed(FormGuide guide, PixelAspect aspect);
 
 /// Whether the guide has the numbers of its kind and they make something: corners that go round a
 /// convex quadrilateral, an axis and radii longer than nothing, strokes of a length, a tilt below

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "engine/core/pixel_aspect.h"
 #include "engine/motion/lattice_field.h"
 
 namespace weft {
@@ -30,19 +31,21 @@ struct FormFinding {
 };
 
 /// Where the places of a surface lie when it is laid flat, over a rectangle of the reference
-/// frame's plane that may reach beyond the frame. Const access is thread-safe.
+/// frame's plane that may reach beyond the frame. All in unsqueezed pixels. Const access is
+/// thread-safe.
 struct FormMap {
-    Vec2 origin{0};             ///< The rectangle's top left corner, in pixels of the frame.
+    Vec2 origin{0};             ///< The rectangle's top left corner on the frame.
     LatticeField displacement;  ///< By place less `origin`: from there to the flat place, px.
     FormFinding finding = {};
     /// The surface in front of the camera, by place less `origin`: ln of its depth, up to a
     /// constant unless a pass gives its unit, and how well that is known, 0 to 1. Empty: not known.
     LatticeField relief = {};
     float relief_fov_deg = 0;  ///< Horizontal field of view in which it is seen.
+    PixelAspect aspect = {};   ///< Of the plate.
 
-    /// The displacement of a place of the reference frame; beyond the rectangle it goes on
-    /// linearly.
-    [[nodiscard]] Vec2 at(Vec2 pixel) const { return displacement.at(pixel - origin); }
+    /// The displacement of an unsqueezed place of the reference frame; beyond the rectangle it goes
+    /// on linearly.
+    [[nodiscard]] Vec2 at(Vec2 unsqueezed) const { return displacement.at(unsqueezed - origin); }
 };
 
 }  // namespace weft

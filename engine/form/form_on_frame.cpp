@@ -60,16 +60,18 @@ class Relief {
     ViewCamera camera_;
 };
 
-// A frame's pixels at the size of the reference frame, and where they come from.
+// A frame's pixels unsqueezed and at the size of the reference frame, and where they come from.
 struct Way {
     const LatticeField& ref_from_cur;
     float smaller;
+    PixelAspect aspect;
 
     [[nodiscard]] Vec2 frame(int x, int y) const {
-        return smaller * Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        const Vec2 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        return aspect.unsqueezed(smaller * centre);
     }
     [[nodiscard]] Vec2 displacement(Vec2 frame) const {
-        return smaller * ref_from_cur.at(frame / smaller);
+        return aspect.unsqueezed(smaller * ref_from_cur.at(aspect.squeezed(frame) / smaller));
     }
 };
 
@@ -108,12 +110,12 @@ ShownForm form_on_frame(const FormMap& form, const LatticeField& ref_from_cur, V
                         const Recti& box, float smaller) {
     ShownForm out{ImageF3(box.size()), ImageF1(box.size()), ImageF1(box.size())};
     if (form.finding.source == FormFinding::Source::kNone || form.relief.empty()) return out;
-    const Way way{ref_from_cur, smaller};
+    const Way way{ref_from_cur, smaller, form.aspect};
     const Size frame = ref_from_cur.full_size();
     const auto full = [&](int side) {
         return static_cast<int>(std::lround(smaller * static_cast<float>(side)));
     };
-    const Size picture{full(frame.width), full(frame.height)};
+    const Size picture = form.aspect.unsqueezed(Size{full(frame.width), full(frame.height)});
     const double side = std::max(picture.width, picture.height);
     const Relief relief(form, picture);
     const Pose pose = find_pose(relief, way, matte, box, kSigma * side);

@@ -17,7 +17,8 @@ struct ShownForm {
 /// one rigid thing so that its places lie where the frame shows them (a pose by Gauss–Newton under
 /// bounded errors). Where they do not, the confidence falls: by half at 1.5 px of 854. It is the
 /// finding's belief elsewhere. `ref_from_cur`, `box` and `matte` (of the box) are of a frame that
-/// is `smaller` times smaller than the reference frame. Bit-identical everywhere; thread-safe.
+/// is `smaller` times smaller than the reference frame, in plate pixels. Bit-identical everywhere;
+/// thread-safe.
 [[nodiscard]] ShownForm form_on_frame(const FormMap& form, const LatticeField& ref_from_cur,
                                       ViewU8x1 matte, const Recti& box, float smaller);
 

@@ -15,7 +15,9 @@ class LatticeForm final : public SurfaceForm {
         : LatticeForm(std::make_shared<const FormMap>(std::move(flat_from_reference)), amount) {}
     LatticeForm(std::shared_ptr<const FormMap> flat_from_reference, float amount)
         : map_(std::move(flat_from_reference)), amount_(amount) {}
-    [[nodiscard]] Vec2 flat(Vec2 pixel) const override { return pixel + amount_ * map_->at(pixel); }
+    [[nodiscard]] Vec2 flat(Vec2 unsqueezed) const override {
+        return unsqueezed + amount_ * map_->at(unsqueezed);
+    }
     [[nodiscard]] std::shared_ptr<const SurfaceForm> at_share(float share) const override {
         return std::make_shared<LatticeForm>(map_, amount_ * share);
     }

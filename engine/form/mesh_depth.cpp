@@ -16,10 +16,12 @@ constexpr double kStiff = 1e-9;  // a plane leaves one of the four numbers open
 
 std::vector<glm::dvec3> places_in_space(const FormMap& form, const std::vector<Vec2>& pixels,
                                         Size picture) {
-    const ViewCamera camera = camera_with(static_cast<double>(form.relief_fov_deg), picture);
+    const ViewCamera camera =
+        camera_with(static_cast<double>(form.relief_fov_deg), form.aspect.unsqueezed(picture));
     std::vector<glm::dvec3> out;
     out.reserve(pixels.size());
-    for (const Vec2 pixel : pixels) {
+    for (const Vec2 plate : pixels) {
+        const Vec2 pixel = form.aspect.unsqueezed(plate);
         // Long double: see docs/decisions/0002-determinism.md.
         const auto depth = static_cast<double>(
             std::exp(static_cast<long double>(form.relief.at(pixel - form.origin).x)));

@@ -7,9 +7,9 @@
 
 namespace weft {
 
-/// The places in front of the camera of places of the reference frame, in the unit of
-/// FormMap::relief: x to the right, y down, z into the scene. The form has a relief, which goes on
-/// beyond what is known. Pure.
+/// The places in front of the camera of places of the reference frame (plate pixels), in the unit
+/// of FormMap::relief: x to the right, y down, z into the scene. The form has a relief, which goes
+/// on beyond what is known. `picture`: size of the plate. Pure.
 [[nodiscard]] std::vector<glm::dvec3> places_in_space(const FormMap& form,
                                                       const std::vector<Vec2>& pixels,
                                                       Size picture);

@@ -19,21 +19,28 @@ constexpr double kMostOff = 0.008;  // by the box, of the form of a pass that sh
 
 using Vector2 = Eigen::Vector2d;
 
+// Of a matte, unsqueezed.
 struct Places {
-    Recti box{};
+    Vec2 middle{0}, sides{0};  // of the box around it
     std::vector<Vec2> inside;
 };
 
-Places places_of(ViewU8x1 matte) {
+Places places_of(ViewU8x1 matte, PixelAspect aspect) {
     Places out;
+    Recti box{};
     for (int y = 0; y < matte.height(); ++y)
         for (int x = 0; x < matte.width(); ++x)
-            if (matte.row(y)[x] >= 128) out.box = out.box.united({x, y, x + 1, y + 1});
-    const int step = std::max(1, std::max(out.box.width(), out.box.height()) / kPlaces);
-    for (int y = out.box.y0; y < out.box.y1; y += step)
-        for (int x = out.box.x0; x < out.box.x1; x += step)
+            if (matte.row(y)[x] >= 128) box = box.united({x, y, x + 1, y + 1});
+    const int step = std::max(1, std::max(box.width(), box.height()) / kPlaces);
+    for (int y = box.y0; y < box.y1; y += step)
+        for (int x = box.x0; x < box.x1; x += step)
             if (matte.row(y)[x] >= 128)
-                out.inside.emplace_back(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+                out.inside.push_back(aspect.unsqueezed(
+                    Vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)));
+    out.middle = aspect.unsqueezed(
+        0.5f * Vec2(static_cast<float>(box.x0 + box.x1), static_cast<float>(box.y0 + box.y1)));
+    out.sides =
+        aspect.unsqueezed(Vec2(static_cast<float>(box.width()), static_cast<float>(box.height())));
     return out;
 }
 
@@ -105,11 +112,12 @@ std::optional<Quad<float>> plane_corners(const FormMap& form, ViewU8x1 matte) {
     const bool pass = form.finding.source == FormFinding::Source::kPass;
     if (form.finding.source == FormFinding::Source::kNone || (!form.finding.plane && !pass))
         return std::nullopt;
-    const Places places = places_of(matte);
-    if (places.box.empty()) return std::nullopt;
-    const double side = std::max(places.box.width(), places.box.height());
-    const Vec2 middle = 0.5f * Vec2(static_cast<float>(places.box.x0 + places.box.x1),
-                                    static_cast<float>(places.box.y0 + places.box.y1));
+    const Places places = places_of(matte, form.aspect);
+    if (places.inside.empty()) return std::nullopt;
+    const auto wide = static_cast<double>(places.sides.x);
+    const auto high = static_cast<double>(places.sides.y);
+    const double side = std::max(wide, high);
+    const Vec2 middle = places.middle;
     // A plane laid flat is a homography of its picture.
     std::vector<PlacePair> picture_of_flat;
     picture_of_flat.reserve(places.inside.size());
@@ -119,8 +127,7 @@ std::optional<Quad<float>> plane_corners(const FormMap& form, ViewU8x1 matte) {
     if (!fit || (pass && off_plane_px(*fit, picture_of_flat) > kMostOff * side))
         return std::nullopt;
     const Matrix3 map = in_units(*fit, middle, side);
-    const Growing growing(
-        map, Vector2(0.5 * places.box.width() / side, 0.5 * places.box.height() / side));
+    const Growing growing(map, Vector2(0.5 * wide / side, 0.5 * high / side));
     // From the place that the middle of the box shows.
     const Eigen::Vector3d at = map.inverse() * Eigen::Vector3d::UnitZ();
     if (!(std::abs(at.z()) > 1e-9)) return std::nullopt;
@@ -132,7 +139,8 @@ std::optional<Quad<float>> plane_corners(const FormMap& form, ViewU8x1 matte) {
     std::size_t k = 0;
     for (const Vector2& corner : Growing::corners(growing.grown(first, kSideStep))) {
         const Vector2 p = (map * corner.homogeneous()).hnormalized() * side;
-        out[k++] = middle + Vec2(static_cast<float>(p.x()), static_cast<float>(p.y()));
+        out[k++] = form.aspect.squeezed(middle +
+                                        Vec2(static_cast<float>(p.x()), static_cast<float>(p.y())));
     }
     if (!is_convex(out)) return std::nullopt;
     return out;

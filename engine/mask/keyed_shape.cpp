@@ -40,6 +40,19 @@ glm::dmat3 similarity(const Corners& from, const Corners& to) {
     return {re, im, 0, -im, re, 0, t.x, t.y, 1};
 }
 
+// One of the picture unsqueezed, from plate pixels to plate pixels.
+glm::dmat3 unsqueezed_similarity(Corners from, Corners to, PixelAspect aspect) {
+    for (Corners* corners : {&from, &to})
+        for (glm::dvec2& corner : *corners)
+            corner = aspect.unsqueezed(corner);
+    glm::dmat3 out = similarity(from, to);
+    const auto ratio = static_cast<double>(aspect.ratio());
+    out[0][1] *= ratio;
+    out[1][0] /= ratio;
+    out[2][0] /= ratio;
+    return out;
+}
+
 struct PlaceInDepth {
     glm::dvec2 at;
     double depth;
@@ -56,7 +69,8 @@ double growth(const glm::dmat3& m, double depth) {
 
 }  // namespace
 
-glm::dmat3 track_motion(const CornerTrack& track, ShapeFollow follow, int from, int to) {
+glm::dmat3 track_motion(const CornerTrack& track, ShapeFollow follow, int from, int to,
+                        PixelAspect aspect) {
     glm::dmat3 out(1);
     if (track.empty() || follow == ShapeFollow::kNone || from == to) return out;
     const Corners &a = corners_on(track, from), &b = corners_on(track, to);
@@ -66,7 +80,7 @@ glm::dmat3 track_motion(const CornerTrack& track, ShapeFollow follow, int from, 
         out[2] = {step.x, step.y, 1};
         return out;
     }
-    if (follow == ShapeFollow::kSimilarity) return similarity(a, b);
+    if (follow == ShapeFollow::kSimilarity) return unsqueezed_similarity(a, b, aspect);
     return square_to_quad(b) * glm::inverse(square_to_quad(a));
 }
 
@@ -94,9 +108,10 @@ RotoShape moved(const RotoShape& shape, const glm::dmat3& motion) {
     return out;
 }
 
-RotoShape shape_on(const KeyedShape& shape, const CornerTrack& track, int frame) {
+RotoShape shape_on(const KeyedShape& shape, const CornerTrack& track, int frame,
+                   PixelAspect aspect) {
     const auto here = [&](const auto& key) {
-        return moved(key.second, track_motion(track, shape.follow, key.first, frame));
+        return moved(key.second, track_motion(track, shape.follow, key.first, frame, aspect));
     };
     const auto after = shape.keys.lower_bound(frame);
     if (after == shape.keys.end()) return here(*shape.keys.rbegin());

@@ -13,7 +13,8 @@ namespace weft {
 struct RotoPoint {
     Vec2 at{0, 0};             ///< Pixels of the plate.
     Vec2 in{0, 0}, out{0, 0};  ///< Handles, from `at`; zero: a corner.
-    float feather_px = 0;      ///< How far outside of the curve the matte reaches zero.
+    /// How far outside of the curve the matte reaches zero, in unsqueezed pixels.
+    float feather_px = 0;
     bool operator==(const RotoPoint&) const = default;
 };
 

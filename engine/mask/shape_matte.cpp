@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "engine/core/smooth_step.h"
+#include "engine/core/unsqueezed_image.h"
 
 namespace weft {
 namespace {
@@ -21,6 +22,15 @@ Vec2 on_curve(const RotoPoint& a, const RotoPoint& b, float t) {
     const Vec2 p0 = a.at, p1 = a.at + a.out, p2 = b.at + b.in, p3 = b.at;
     const Vec2 q0 = mixed(p0, p1, t), q1 = mixed(p1, p2, t), q2 = mixed(p2, p3, t);
     return mixed(mixed(q0, q1, t), mixed(q1, q2, t), t);
+}
+
+RotoShape unsqueezed(RotoShape shape, PixelAspect aspect) {
+    for (RotoPoint& p : shape.points) {
+        p.at = aspect.unsqueezed(p.at);
+        p.in = aspect.unsqueezed(p.in);
+        p.out = aspect.unsqueezed(p.out);
+    }
+    return shape;
 }
 
 }  // namespace
@@ -55,13 +65,20 @@ Matte polygon_matte(const std::vector<Vec2>& points, Size size) {
     return out;
 }
 
-Matte matte_of_shape(const RotoShape& shape, Size size) {
+Matte matte_of_shape(const RotoShape& shape, Size size, PixelAspect aspect) {
     const std::vector<Vec2> outline = outline_of(shape, kCurveSteps);
     Matte out = polygon_matte(outline, size);
     float widest = 0;
     for (const RotoPoint& point : shape.points)
         widest = std::max(widest, point.feather_px);
     if (widest <= 0 || outline.size() < 3) return out;
+    if (!aspect.square()) {
+        Matte soft = matte_of_shape(unsqueezed(shape, aspect), aspect.unsqueezed(size));
+        soft = squeezed(std::move(soft), aspect, size);
+        std::transform(out.data(), out.data() + out.size_bytes(), soft.data(), out.data(),
+                       [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+        return out;
+    }
     // Outside the shape, the nearest curve point gives the feather width, found by a labelled
     // distance transform.
     cv::Mat curve(size.height, size.width, CV_8UC1, cv::Scalar(255)), distance, labels;

@@ -67,8 +67,8 @@ ImageSpec spec_of(const Samples& samples, const WriteOptions& options, const std
         spec.attribute("oiio:UnassociatedAlpha", 1);
     // OpenImageIO would write the current time, and the same frame would differ between runs.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
-    if (options.pixel_aspect != 1)
-        spec.attribute("PixelAspectRatio", static_cast<float>(options.pixel_aspect));
+    if (const double aspect = options.pixel_aspect.value_or(1); aspect != 1)
+        spec.attribute("PixelAspectRatio", static_cast<float>(aspect));
     if (format == "openexr") {
         for (const auto& [name, text] : options.metadata)
             spec.attribute(name, text);

@@ -156,6 +156,13 @@ ExrPart fresh_part(const ExrFrame& frame, PixelDepth depth, double pixel_aspect)
     return part;
 }
 
+// What the artist says of the plate's pixels replaces what its header says.
+void keep_aspect(ImageSpec& spec, double pixel_aspect) {
+    const char* const kName = "PixelAspectRatio";
+    if (sane_pixel_aspect(spec.get_float_attribute(kName, 1.0f)) != pixel_aspect)
+        spec.attribute(kName, static_cast<float>(pixel_aspect));
+}
+
 void finish_spec(ImageSpec& spec, const WriteOptions& options, bool main_part) {
     std::string kept(spec.get_string_attribute("compression", "zip"));
     kept = kept.substr(0, kept.find(':'));
@@ -235,7 +242,7 @@ Status write(const std::string& path, const ExrFrame& frame, const WriteOptions&
     std::size_t main = 0;
     std::array<int, 3> rgb{0, 1, 2};
     if (frame.source.empty()) {
-        parts.push_back(fresh_part(frame, options.depth, options.pixel_aspect));
+        parts.push_back(fresh_part(frame, options.depth, options.pixel_aspect.value_or(1)));
     } else {
         WEFT_TRY(place, locate_colour(frame.source, frame.source_layer));
         WEFT_TRY(read, read_parts(frame.source));
@@ -250,6 +257,7 @@ Status write(const std::string& path, const ExrFrame& frame, const WriteOptions&
     }
     WEFT_CHECK_OK(check_layer_names(path, parts[main], frame, rgb));
     if (!frame.source.empty()) parts[main] = with_depth(std::move(parts[main]), rgb, options.depth);
+    if (options.pixel_aspect) keep_aspect(parts[main].spec, *options.pixel_aspect);
     parts[main] = picture_over(std::move(parts[main]), frame, rgb);
     for (std::size_t k = 0; k < parts.size(); ++k)
         finish_spec(parts[k].spec, options, k == main);

@@ -32,6 +32,8 @@ struct ReadOptions {
     std::string layer;  ///< EXR layer ("beauty" reads beauty.R, .G, .B); empty: R, G, B.
     /// The number of a movie's first frame, or of a single picture without a number in its name.
     int movie_start = 1001;
+    /// Width of a pixel over its height, whatever the files say; empty: as they say.
+    std::optional<double> pixel_aspect = {};
 };
 
 /// A plate. read() may be called from several threads; a movie serialises them inside.

@@ -23,7 +23,9 @@ struct WriteOptions {
         "zip";             ///< auto (zip), none, rle, zip, zips, piz, pxr24, b44, b44a, dwaa, dwab
     int dpx_bits = 10;     ///< A U16 DPX holds 10 bits (the film standard), 12 or 16.
     bool dpx_log = false;  ///< The values are film log ("cineon"); a DPX says so in its header.
-    double pixel_aspect = 1;  ///< Width of a pixel over its height.
+    /// Width of a pixel over its height; empty: as in the header of an EXR that is written over
+    /// another one, else 1.
+    std::optional<double> pixel_aspect = {};
     /// Entries of the file's header (engine/media/metadata.h).
     std::vector<std::pair<std::string, std::string>> metadata = {};
     /// The plate's file. A DPX keeps the shot's data of its header: time code, key code, frame

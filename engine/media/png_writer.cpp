@@ -65,8 +65,9 @@ std::vector<unsigned char> header(const PngShape& shape, const WriteOptions& opt
     add_chunk(out, "oFFs", "\0\0\0\0\0\0\0\0\0"sv);
     // Pixels to the unit of length, across and down, the unit being unknown.
     constexpr float kAcross = 100;
-    const float down = kAcross * static_cast<float>(options.pixel_aspect);
-    if (options.pixel_aspect != 1 && down > 0) {
+    const double aspect = options.pixel_aspect.value_or(1);
+    const float down = kAcross * static_cast<float>(aspect);
+    if (aspect != 1 && down > 0) {
         add_chunk(out, "pHYs",
                   four_bytes(static_cast<std::uint32_t>(kAcross)) +
                       four_bytes(static_cast<std::uint32_t>(down)) + '\0');

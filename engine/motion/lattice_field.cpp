@@ -265,6 +265,18 @@ LatticeField inverse(const LatticeField& field) {
     return out;
 }
 
+LatticeField unsqueezed(const LatticeField& squeezed, PixelAspect aspect) {
+    if (aspect.square()) return squeezed;
+    LatticeField out(aspect.unsqueezed(squeezed.full_size()), squeezed.spacing());
+    for (int j = 0; j < out.nodes().height(); ++j) {
+        for (int i = 0; i < out.nodes().width(); ++i) {
+            const Vec2 from = aspect.squeezed(out.node_position(i, j));
+            out.set_node(i, j, aspect.unsqueezed(squeezed.at(from)));
+        }
+    }
+    return out;
+}
+
 LatticeField mix(const LatticeField& a, const LatticeField& b, float weight) {
     assert(a.full_size() == b.full_size() && a.spacing() == b.spacing());
     LatticeField out = a;

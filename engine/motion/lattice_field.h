@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/image.h"
+#include "engine/core/pixel_aspect.h"
 
 namespace weft {
 
@@ -62,6 +63,10 @@ class LatticeField {
 /// The field in the other direction: from a_from_b, b_from_a. Works for any rotation and scale;
 /// where the field folds over it gives the nearest place. Same frame size and spacing.
 [[nodiscard]] LatticeField inverse(const LatticeField& field);
+
+/// The field over an anamorphic frame, in unsqueezed places and steps, on a lattice of the same
+/// spacing; the same field if the frame's pixels are square.
+[[nodiscard]] LatticeField unsqueezed(const LatticeField& squeezed, PixelAspect aspect);
 
 /// a + weight · (b − a), node by node; both of the same frame size and spacing.
 [[nodiscard]] LatticeField mix(const LatticeField& a, const LatticeField& b, float weight);

@@ -81,6 +81,7 @@ Bytes encode(const FormMap& form) {
         .value(f.fov_error_deg)
         .value(f.fov_regions)
         .value(static_cast<std::uint8_t>(f.no_parallax))
+        .value(form.aspect.ratio())
         .value(form.relief_fov_deg);
     if (!form.relief.empty()) write(out, form.relief);
     return out.take();
@@ -245,7 +246,10 @@ Expected<FormMap> decode_form(const Bytes& bytes) {
     std::uint8_t plane = 0, no_parallax = 0;
     reader.value(out.origin).value(f.source).value(plane).value(f.frames).value(f.belief);
     reader.value(f.tilt_deg).value(f.tilt_error_deg).value(f.fov_deg);
-    reader.value(f.fov_error_deg).value(f.fov_regions).value(no_parallax).value(out.relief_fov_deg);
+    float aspect = 1;
+    reader.value(f.fov_error_deg).value(f.fov_regions).value(no_parallax).value(aspect);
+    reader.value(out.relief_fov_deg);
+    out.aspect = PixelAspect(static_cast<double>(aspect));
     f.plane = plane != 0;
     f.no_parallax = no_parallax != 0;
     if (out.relief_fov_deg != 0) {
@@ -253,7 +257,7 @@ Expected<FormMap> decode_form(const Bytes& bytes) {
         WEFT_TRY(relief, read_lattice(reader, "form"));
         out.relief = std::move(relief);
     }
-    if (!reader.complete() || !std::isfinite(out.origin.x + out.origin.y) ||
+    if (!reader.complete() || !std::isfinite(out.origin.x + out.origin.y) || !(aspect > 0) ||
         f.source > FormFinding::Source::kLines || !(f.belief >= 0 && f.belief <= 1))
         return damaged("form");
     return out;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/core/setting.h"
+#include "engine/core/unsqueezed_image.h"
 #include "engine/form/drawn_form.h"
 #include "engine/form/flat_plane.h"
 #include "engine/form/flatten.h"
@@ -108,9 +109,10 @@ Status check_drawn_forms(const ShotSource& source, const ShotPlan& plan) {
             continue;
         WEFT_TRY(extent, painted ? source.matte_key(k, frame) : source.matte(k, frame));
         WEFT_TRY(given, source.holdout(k, frame));
-        const Matte visible = given ? without_holdout(extent, *given) : std::move(extent);
+        const Matte visible = unsqueezed(
+            given ? without_holdout(extent, *given) : std::move(extent), region.placement.aspect);
         WEFT_CHECK_OK(
-            check_drawn_form(region.form_guides, {source.size(), region.form_fov_deg}, visible));
+            check_drawn_form(region.form_guides, {visible.size(), region.form_fov_deg}, visible));
     }
     return {};
 }

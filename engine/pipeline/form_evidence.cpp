@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/unsqueezed_image.h"
 #include "engine/pipeline/plate_views.h"
 #include "engine/pipeline/region_mattes.h"
 
@@ -28,7 +29,9 @@ Expected<FormEvidence> form_evidence_at(const PassContext& context, const Analys
     WEFT_TRY(holdout, holdout_matte(context.source, context.plan, store, region, frame));
     WEFT_TRY(bytes, store.get({region, frame, AnalysisKind::kCoords}));
     WEFT_TRY(field, decode_lattice(bytes));
-    return FormEvidence{without_holdout(extent, holdout), std::move(field)};
+    const PixelAspect aspect = region_of(context.plan, region).placement.aspect;
+    return FormEvidence{unsqueezed(without_holdout(extent, holdout), aspect),
+                        unsqueezed(field, aspect)};
 }
 
 // Where a frame's visible surface lies on the reference frame's plane, at most a plate beyond it.

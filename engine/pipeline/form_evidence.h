@@ -13,6 +13,7 @@ namespace weft {
 /// as its motion was followed; the reference frame's are exact.
 inline constexpr double kOtherFrames = 0.01;
 
+/// Unsqueezed, as all that is found of a form is: its cameras have square pixels.
 struct FormEvidence {
     Matte visible;
     LatticeField ref_from_cur;

@@ -14,7 +14,7 @@ Expected<MotionLens> shared_lens(const PassContext& context, const AnalysisStore
         if (!shares(regions[k])) continue;
         WEFT_TRY(evidence,
                  form_evidence_on(context, store, static_cast<int>(k), regions[k].form_evidence));
-        const auto fit = fit_motion(evidence, context.source.size(), {});
+        const auto fit = fit_motion(evidence, evidence.front().visible.size(), {});
         if (!fit) continue;
         if (const auto tangent = fit->measured_tangent()) measured.push_back(*tangent);
     }

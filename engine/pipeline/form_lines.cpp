@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/core/unsqueezed_image.h"
 #include "engine/form/form_level.h"
 #include "engine/form/plane_in_picture.h"
 #include "engine/pipeline/form_laid.h"
@@ -49,7 +50,8 @@ Expected<FormMap> form_from_lines(const PassContext& context, int region,
     if (matte_bounds(visible).empty()) return moved;
     WEFT_TRY(plate, context.source.plate(plan.reference_frames.front()));
     const PlateViews views = make_views(*plate, *context.plan.display_from_plate);
-    const std::vector<PictureLine> lines = picture_lines(views.luma);
+    const std::vector<PictureLine> lines =
+        picture_lines(unsqueezed(views.luma, plan.placement.aspect));
     if (context.cancel.cancelled()) return cancelled(context.cancel);
     const ScenePerspective scene =
         scene_perspective(lines, visible.size(), lens_before(lens, visible.size()));

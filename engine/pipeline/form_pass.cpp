@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/core/setting.h"
+#include "engine/core/unsqueezed_image.h"
 #include "engine/form/flatten.h"
 #include "engine/form/form_relief.h"
 #include "engine/form/normal_metric.h"
@@ -54,11 +55,13 @@ Expected<double> add_pass(const PassContext& context, int region, int frame, con
                           double weight, MetricField& field) {
     const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
     if (plan.form_from == RegionPlan::FormFrom::kPositions) {
-        WEFT_TRY(positions, context.source.positions(region, frame));
+        WEFT_TRY(squeezed, context.source.positions(region, frame));
+        const ImageF3 positions = unsqueezed(std::move(squeezed), plan.placement.aspect);
         add_positions(field, positions, at.visible, at.ref_from_cur, weight);
         return 0.0;
     }
     WEFT_TRY(pass, context.source.normals(region, frame));
+    pass.normals = unsqueezed(std::move(pass.normals), plan.placement.aspect);
     const auto normals =
         view_normals(pass.normals, at.visible, pass.camera, pass.camera_from_world);
     if (!normals) {
@@ -70,7 +73,7 @@ Expected<double> add_pass(const PassContext& context, int region, int frame, con
                         ".");
     }
     add_normals(field, *normals, at.visible, pass.camera, at.ref_from_cur, weight);
-    return fov_of(pass.camera, context.source.size());
+    return fov_of(pass.camera, at.visible.size());
 }
 
 // What the region's own source says of its form.
@@ -78,18 +81,20 @@ Expected<FormMap> form_as_found(const PassContext& context, const AnalysisStore&
                                 const std::vector<int>& frames,
                                 const std::vector<FormEvidence>& evidence, MotionLens lens) {
     const RegionPlan& plan = context.plan.regions[static_cast<std::size_t>(region)];
+    const Size picture = evidence.front().visible.size();
     if (plan.form_from == RegionPlan::FormFrom::kMotion) {
         lens.fov_deg = plan.form_fov_deg;
         return form_from_lines(context, region, evidence, lens,
-                               form_from_motion(evidence, context.source.size(), lens));
+                               form_from_motion(evidence, picture, lens));
     }
     if (plan.form_from == RegionPlan::FormFrom::kShape)
-        return form_from_drawing(evidence.front(), context.source.size(), plan);
+        return form_from_drawing(evidence.front(), picture, plan);
     if (plan.form_from == RegionPlan::FormFrom::kOutline) {
         WEFT_TRY(extent, extent_matte(context.source, context.plan, store, region, frames.front()));
-        return form_from_outline(evidence.front(), extent, context.source.size(), plan);
+        return form_from_outline(
+            evidence.front(), unsqueezed(std::move(extent), plan.placement.aspect), picture, plan);
     }
-    MetricField field = field_over(context.source.size(), evidence);
+    MetricField field = field_over(picture, evidence);
     double fov_deg = plan.form_fov_deg.value_or(0);
     for (std::size_t k = 0; k < frames.size(); ++k) {
         if (context.cancel.cancelled()) return cancelled(context.cancel);
@@ -100,7 +105,6 @@ Expected<FormMap> form_as_found(const PassContext& context, const AnalysisStore&
     if (!field.finish()) return no_form(frames, plan.form_from);
     FormMap out = flat_from_reference(field);
     out.finding = {FormFinding::Source::kPass, false, static_cast<int>(frames.size())};
-    const Size picture = context.source.size();
     add_relief(out, field, fov_deg > 0 ? fov_deg : fov_of_metric(field, picture), picture, false);
     return out;
 }
@@ -118,6 +122,7 @@ Expected<FormMap> form_from(const PassContext& context, const AnalysisStore& sto
     WEFT_TRY(evidence, form_evidence_on(context, store, region, frames));
     WEFT_TRY(form, form_as_found(context, store, region, frames, evidence, lens));
     WEFT_CHECK_OK(level_form(evidence.front(), plan, form));
+    form.aspect = plan.placement.aspect;
     return form;
 }
 

@@ -29,7 +29,7 @@ Expected<std::optional<Shading>> region_shading(const ShotSource& source, const 
                                                 const ImageF3& working) {
     using Found = Expected<std::optional<Shading>>;
     if (region.light_source == LightSource::kPainted)
-        return Found(painted_shading(region.lamps, frame, source.size()));
+        return Found(painted_shading(region.lamps, frame, source.size(), region.placement.aspect));
     if (region.light_source != LightSource::kPlate) return Found(std::nullopt);
     if (region.light_pass != RegionPlan::Pass::kNone) {
         WEFT_TRY(pass, source.light_pass(index, frame));

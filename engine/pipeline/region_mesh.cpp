@@ -110,8 +110,10 @@ Expected<SurfaceMesh> region_mesh(const RegionMotion& motion, const AnalysisStor
     double mean = 0;
     for (const double value : *depth)
         mean += value / static_cast<double>(depth->size());
-    const double focal =
-        deep ? camera_with(static_cast<double>(form->relief_fov_deg), motion.size()).focal_px : 0;
+    const double focal = deep ? camera_with(static_cast<double>(form->relief_fov_deg),
+                                            form->aspect.unsqueezed(motion.size()))
+                                    .focal_px
+                              : 0;
     for (std::size_t k = 0; k < all.size(); ++k) {
         // A frame that shows too little to tell has what the one before it has.
         if (!found[k].depth.empty()) depth = &found[k].depth;

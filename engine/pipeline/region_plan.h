@@ -174,7 +174,7 @@ struct RegionPlan {
     float form_roundness = 1;  ///< Of kOutline: 0 flat, 2 as thick as wide.
     /// Horizontal field of view; empty: found as well, or in the pass's header.
     std::optional<double> form_fov_deg;
-    /// Shapes and strokes on the reference frame, in plate pixels; level strokes turn every form.
+    /// Shapes and strokes on the reference frame, unsqueezed; level strokes turn every form.
     std::vector<FormGuide> form_guides;
     /// Frames that show the form, the reference frame first; they do not depend on the part of the
     /// shot that is rendered.

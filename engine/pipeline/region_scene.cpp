@@ -148,7 +148,8 @@ Expected<TextureMapping> mapping_on(const RegionPlan& region, const RegionScene&
 }
 
 Size plane_size(const PlanePlacement& placement, Size plate) {
-    return {plane_side(plate.width, placement.scale), plane_side(plate.height, placement.scale)};
+    const Size shown = placement.aspect.unsqueezed(plate);
+    return {plane_side(shown.width, placement.scale), plane_side(shown.height, placement.scale)};
 }
 
 int finer_levels(Size plane) {

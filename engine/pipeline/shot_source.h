@@ -17,8 +17,8 @@ namespace weft {
 
 /// What a renderer's normal pass shows of a frame, with its camera.
 struct NormalPass {
-    ImageF3 normals;  ///< H×W×3, of any length; zero or not finite: unknown.
-    ViewCamera camera;
+    ImageF3 normals;    ///< H×W×3, of any length; zero or not finite: unknown.
+    ViewCamera camera;  ///< Of the picture unsqueezed.
     std::array<double, 9> camera_from_world{};  ///< As view_normals() takes it.
 };
 

@@ -26,9 +26,11 @@ Expected<TextureMapping> texture_mapping(const PlanePlacement& p) {
     // Long double: see docs/decisions/0002-determinism.md.
     const long double angle = glm::radians(p.rotate_deg);
     const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
+    const Vec2 offset = p.aspect.unsqueezed(p.offset_px);
     if (!p.corners) {
         return TextureMapping(glm::inverse(affine(p.scale * c, -p.scale * s, p.scale * s,
-                                                  p.scale * c, p.offset_px)))
+                                                  p.scale * c, offset)),
+                              p.aspect)
             .with_warp(p.warp);
     }
     if (!is_convex<float>(*p.corners)) {
@@ -36,8 +38,11 @@ Expected<TextureMapping> texture_mapping(const PlanePlacement& p) {
                     "The four corners must go around a convex quadrilateral: top left, top right, "
                     "bottom right, bottom left.");
     }
-    const Mat3 plate_from_square = square_to_quad<float>(*p.corners);
-    // Plate pixels per unit of the square along its two edges, at its top left corner.
+    std::array<Vec2, 4> corners = *p.corners;
+    for (Vec2& corner : corners)
+        corner = p.aspect.unsqueezed(corner);
+    const Mat3 plate_from_square = square_to_quad<float>(corners);
+    // Unsqueezed pixels per unit of the square along its two edges, at its top left corner.
     const Vec2 origin = project(plate_from_square, {0, 0});
     constexpr float kStep = 1e-3f;
     const float along_u = glm::length(project(plate_from_square, {kStep, 0}) - origin) / kStep;
@@ -48,8 +53,8 @@ Expected<TextureMapping> texture_mapping(const PlanePlacement& p) {
     const Mat3 texels_from_square =
         affine(square_texels.x / p.scale, 0, 0, square_texels.y / p.scale, {0, 0});
     // Rotation and offset act inside the plane, so that the perspective stays the artist's.
-    const Mat3 turned = glm::inverse(affine(c, -s, s, c, p.offset_px / p.scale));
-    return TextureMapping(turned * texels_from_square * glm::inverse(plate_from_square))
+    const Mat3 turned = glm::inverse(affine(c, -s, s, c, offset / p.scale));
+    return TextureMapping(turned * texels_from_square * glm::inverse(plate_from_square), p.aspect)
         .with_warp(p.warp);
 }
 

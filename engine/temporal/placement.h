@@ -7,16 +7,17 @@
 
 #include "engine/core/error.h"
 #include "engine/core/fields.h"
+#include "engine/core/pixel_aspect.h"
 #include "engine/core/texture_mapping.h"
 #include "engine/motion/lattice_field.h"
 
 namespace weft {
 
-/// A texture plane laid on the reference frame. Without corners the plane's texel u lies at
-/// offset + scale · R(rotate) · u: turned counter-clockwise as seen on the screen, about the place
-/// `offset`, which is the placement's origin.
+/// A texture plane laid on the reference frame. Without corners the plane's texel u lies,
+/// unsqueezed (PixelAspect), at offset + scale · R(rotate) · u: turned counter-clockwise as seen on
+/// the screen, about the place `offset`, which is the placement's origin.
 struct PlanePlacement {
-    float scale = 1;       ///< Plate pixels per sample pixel at the origin, > 0.
+    float scale = 1;       ///< Unsqueezed plate pixels per sample pixel at the origin, > 0.
     float rotate_deg = 0;  ///< Counter-clockwise.
     Vec2 offset_px{0, 0};  ///< Of the origin, in plate pixels.
     /// Top left, top right, bottom right, bottom left on the plate: where a rectangle of the plane
@@ -27,6 +28,7 @@ struct PlanePlacement {
     std::optional<Size> picture_texels;
     /// A correction of the plane on the reference frame, beneath all of the above; null: none.
     std::shared_ptr<const PlaneWarp> warp;
+    PixelAspect aspect;  ///< Of the plate.
     bool operator==(const PlanePlacement&) const = default;
 };
 

@@ -15,6 +15,20 @@ TEST(PaintedLight, APointIsBrightInTheMiddleAndEndsAtItsRadius) {
     EXPECT_EQ(s.value.at(25, 33), 1.0f);
 }
 
+TEST(PaintedLight, APointIsRoundOnAnAnamorphicPlate) {
+    const auto lamps = parse_lamps("point 40,40 20 3");
+    ASSERT_TRUE(lamps);
+    const Shading s = painted_shading(*lamps, 1, {80, 80}, PixelAspect(2));
+    // Ten plate pixels to the side are as far as twenty up.
+    EXPECT_GT(s.value.at(23, 20), 1.0f);
+    EXPECT_EQ(s.value.at(26, 20), 1.0f);
+    EXPECT_GT(s.value.at(20, 28), 1.0f);
+    EXPECT_EQ(s.value.at(20, 31), 1.0f);
+    const auto gradient = parse_lamps("gradient 20,0 20,80 1 3");
+    const Shading along = painted_shading(*gradient, 1, {80, 80}, PixelAspect(2));
+    EXPECT_FLOAT_EQ(along.value.at(3, 20), along.value.at(35, 20));
+}
+
 TEST(PaintedLight, DirectionalLightIsStrongestAtTheSideItComesFrom) {
     const auto lamps = parse_lamps("directional 90 2");  // from above
     ASSERT_TRUE(lamps);

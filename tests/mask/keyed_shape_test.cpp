@@ -32,6 +32,27 @@ void expect_near(Vec2 a, Vec2 b) {
     EXPECT_NEAR(a.y, b.y, 1e-3);
 }
 
+// A surface that turns on an anamorphic plate: seen unsqueezed, the shape turns and is not sheared.
+TEST(KeyedShape, ASimilarityIsOneOfTheUnsqueezedPicture) {
+    const PixelAspect aspect(2);
+    Quad<double> before = kBox, after = turned();
+    for (Quad<double>* corners : {&before, &after})
+        for (glm::dvec2& corner : *corners)
+            corner = aspect.squeezed(corner);
+    const CornerTrack track{{1, before}, {2, after}};
+    RotoShape drawn = square_at(40, 40), seen = drawn;
+    for (RotoPoint& point : drawn.points)
+        point.at = aspect.squeezed(point.at);
+    KeyedShape shape{{{1, drawn}}, ShapeFollow::kSimilarity, "t"};
+    const RotoShape squeezed = shape_on(shape, track, 2, aspect);
+    shape.keys = {{1, seen}};
+    const RotoShape wanted = shape_on(shape, {{1, kBox}, {2, turned()}}, 2);
+    for (std::size_t k = 0; k < 4; ++k) {
+        expect_near(aspect.unsqueezed(squeezed.points[k].at), wanted.points[k].at);
+        EXPECT_NEAR(squeezed.points[k].feather_px, wanted.points[k].feather_px, 1e-3);
+    }
+}
+
 TEST(KeyedShape, TakesOfTheTrackWhatItFollows) {
     const CornerTrack track{{1, kBox}, {2, turned()}};
     KeyedShape shape{{{1, square_at(40, 40)}}, ShapeFollow::kNone, "t"};

@@ -27,6 +27,23 @@ TEST(RotoShape, FillsItsInsideAndFallsOffOverTheFeather) {
     EXPECT_EQ(thin.at(20, 12), 0) << "two points have no inside";
 }
 
+// The feather of an anamorphic plate reaches half as many pixels to the side as up.
+TEST(RotoShape, ItsFeatherIsEvenOnTheUnsqueezedPicture) {
+    const Matte soft = matte_of_shape(square(10, 8), {60, 50}, PixelAspect(2));
+    EXPECT_EQ(soft.at(20, 20), 255);
+    EXPECT_GT(soft.at(31, 20), 0);
+    EXPECT_EQ(soft.at(35, 20), 0);
+    EXPECT_GT(soft.at(20, 34), 0);
+    EXPECT_EQ(soft.at(20, 39), 0);
+    for (int d = 0; d < 3; ++d) {
+        const int side = soft.at(30 + d, 20),
+                  below = (soft.at(20, 30 + 2 * d) + soft.at(20, 31 + 2 * d)) / 2;
+        EXPECT_NEAR(side, below, 20) << d;
+    }
+    EXPECT_EQ(matte_of_shape(square(10), {60, 50}, PixelAspect(2)),
+              matte_of_shape(square(10), {60, 50}));
+}
+
 TEST(RotoShape, InterpolatesPointByPoint) {
     EXPECT_EQ(between(square(0), square(10), 0), square(0));
     EXPECT_EQ(between(square(0), square(10), 0.5f).points[1].at, Vec2(25, 10));

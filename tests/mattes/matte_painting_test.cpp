@@ -156,5 +156,56 @@ TEST(MattePainting, WithoutAPointNothingIsFinished) {
     EXPECT_FALSE(painting.end());
 }
 
+// The number of pixels of a dot along a row and a column through its middle.
+Size extent_of(const Matte& matte) {
+    Recti box{};
+    for (int y = 0; y < matte.height(); ++y)
+        for (int x = 0; x < matte.width(); ++x)
+            if (matte.at(x, y) >= 128) box = box.united({x, y, x + 1, y + 1});
+    return box.size();
+}
+
+TEST(Brush, IsRoundOnTheUnsqueezedPicture) {
+    const auto before = std::make_shared<const Matte>(Size{200, 200});
+    Brush brush;
+    brush.radius_px = 40;
+    brush.hardness = 1;
+    const auto dot = [&](PixelAspect aspect) {
+        brush.aspect = aspect;
+        Matte out = *before;
+        Stroke stroke(before, brush);
+        (void)stroke.move_to({100, 100}, 1, out);
+        return extent_of(out);
+    };
+    EXPECT_EQ(dot({}), (Size{80, 80}));
+    EXPECT_EQ(dot(PixelAspect(2)), (Size{40, 80}));
+    EXPECT_EQ(dot(PixelAspect(0.5)), (Size{160, 80}));
+}
+
+TEST(Brush, AStrokeIsAsWideInAllDirectionsOfTheUnsqueezedPicture) {
+    const PixelAspect aspect(2);
+    const auto before = std::make_shared<const Matte>(Size{200, 300});
+    Brush brush;
+    brush.radius_px = 20;
+    brush.hardness = 1;
+    brush.aspect = aspect;
+    Matte out = *before;
+    Stroke stroke(before, brush);
+    (void)stroke.move_to({60, 70}, 1, out);
+    (void)stroke.move_to({120, 190}, 1, out);  // at 45 degrees of the picture unsqueezed
+    int inside = 0;
+    for (int y = 0; y < out.height(); ++y) {
+        for (int x = 0; x < out.width(); ++x) {
+            const Vec2 p = aspect.unsqueezed(Vec2(x + 0.5f, y + 0.5f)) - Vec2(120, 70);
+            const float t = std::clamp((p.x + p.y) / 240, 0.0f, 1.0f);
+            const float off = std::hypot(p.x - 120 * t, p.y - 120 * t);
+            inside += out.at(x, y) >= 128;
+            if (std::abs(off - 20) < 1.5f) continue;
+            EXPECT_EQ(out.at(x, y) >= 128, off < 20) << x << ", " << y;
+        }
+    }
+    EXPECT_GT(inside, 2000);
+}
+
 }  // namespace
 }  // namespace weft::test

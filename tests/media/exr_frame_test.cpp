@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
 #include "engine/core/setting.h"
 #include "engine/media/exr_frame.h"
@@ -108,6 +109,41 @@ TEST_F(ExrFrameTest, KeepsEveryBitOutsideOfWhatWasTouched) {
     }
     EXPECT_EQ(read_image(in("out.exr")).value().rgb.at(5, 4, 1), 0.25f);
     EXPECT_EQ(read_recipe_metadata(in("out.exr"))["weft:settings"], "abc");
+}
+
+// What the project says of the plate's pixels is in the output, whatever the source's header says.
+TEST_F(ExrFrameTest, AGivenPixelAspectReplacesTheSources) {
+    put_source("plate.exr");
+    const ImageF3 rgb(16, 10, 0.25f);
+    const auto written = [&](std::optional<double> aspect) {
+        WriteOptions options;
+        options.pixel_aspect = aspect;
+        std::filesystem::remove(in("out.exr"));
+        EXPECT_TRUE(write_exr(in("out.exr"), {rgb, {}, in("plate.exr"), "", {}, {}}, options));
+        ImageSpec spec;
+        native("out.exr", spec);
+        return spec.get_float_attribute("PixelAspectRatio", 1.0f);
+    };
+    EXPECT_EQ(written({}), 2.0f);
+    EXPECT_EQ(written(2.0), 2.0f);
+    EXPECT_EQ(written(1.5), 1.5f);
+    EXPECT_EQ(written(1.0), 1.0f);
+}
+
+TEST_F(ExrFrameTest, APlateMayBeOpenedWithAnotherPixelAspect) {
+    put_source("plate.0001.exr");
+    const auto aspect = [&](std::optional<double> given) {
+        ReadOptions options;
+        options.pixel_aspect = given;
+        const auto plate = open_plate(in("plate.####.exr"), options);
+        EXPECT_TRUE(plate);
+        EXPECT_EQ((*plate)->frames().size(), 1u);
+        EXPECT_TRUE((*plate)->read(1));
+        return (*plate)->pixel_aspect();
+    };
+    EXPECT_EQ(aspect({}), 2);
+    EXPECT_EQ(aspect(1.0), 1);
+    EXPECT_EQ(aspect(1.8), 1.8);
 }
 
 TEST_F(ExrFrameTest, TheDataWindowGrowsWithWhatIsPainted) {

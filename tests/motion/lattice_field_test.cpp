@@ -214,5 +214,21 @@ TEST(LatticeField, AnInverseLeadsBack) {
         EXPECT_LT(glm::length(round.at(p)), 0.05f) << p.x << "," << p.y;
 }
 
+TEST(LatticeField, IsTheSameMotionUnsqueezed) {
+    const LatticeField field = field_of(kOddFrame, 8, affine);
+    const PixelAspect aspect(2);
+    const LatticeField wide = unsqueezed(field, aspect);
+    EXPECT_EQ(wide.full_size(), (Size{202, 67}));
+    EXPECT_EQ(wide.spacing(), 8);
+    for (const Vec2 p : {Vec2(3, 4), Vec2(50.5f, 33), Vec2(99, 60), Vec2(-20, 90)})
+        EXPECT_LT(distance(wide.at(aspect.unsqueezed(p)), aspect.unsqueezed(affine(p))), 1e-3f);
+    const LatticeField bent = field_of(kOddFrame, 8, quadratic);
+    const Vec2 p(40, 30);
+    EXPECT_LT(
+        distance(unsqueezed(bent, aspect).at(aspect.unsqueezed(p)), aspect.unsqueezed(bent.at(p))),
+        1e-2f);
+    EXPECT_EQ(unsqueezed(bent, {}).nodes(), bent.nodes());
+}
+
 }  // namespace
 }  // namespace weft

@@ -123,7 +123,7 @@ Region full_region() {
 Project full_project() {
     Project p;
     p.name = "Shot 010";
-    p.plate = {"frames/####.exr", "beauty", 1, "ACEScg", 23.976, MissingFrames::kHold, {}};
+    p.plate = {"frames/####.exr", "beauty", 1, "ACEScg", 23.976, 1.8, MissingFrames::kHold, {}};
     p.color = {"linear", "srgb", "linear", {}};
     p.settings = {Quality::kDraft, 9007199254740991, "1-40", "GPL, CC-BY-NC", {}};
     p.output = {"out/####.exr",

@@ -95,18 +95,18 @@ TEST(RegionProjection, APlaneIsMadeForTheSmallestKeyedScale) {
     placement.scale = 3;
     placement.scale_keys.keys = {{1, {2.0}}, {5, {0.5}}, {9, {4.0}}};
     RegionPlan plan;
-    ASSERT_TRUE(project_placement(placement, TemporalMode::kLocked, plan));
+    ASSERT_TRUE(project_placement(placement, TemporalMode::kLocked, {}, plan));
     EXPECT_FLOAT_EQ(plan.placement.scale, 0.5f);
     EXPECT_FLOAT_EQ(plan.placement_at(9).scale, 4.0f);
-    const Status moving = project_placement(placement, TemporalMode::kPaper, plan);
+    const Status moving = project_placement(placement, TemporalMode::kPaper, {}, plan);
     ASSERT_FALSE(moving);
     EXPECT_THAT(moving.error().text(), HasSubstr("animated placement"));
     Placement uv;
     uv.uv = "uv.####.exr";
     RegionPlan mapped;
-    ASSERT_TRUE(project_placement(uv, TemporalMode::kLocked, mapped));
+    ASSERT_TRUE(project_placement(uv, TemporalMode::kLocked, {}, mapped));
     EXPECT_TRUE(mapped.has_uv);
-    EXPECT_FALSE(project_placement(uv, TemporalMode::kNone, mapped));
+    EXPECT_FALSE(project_placement(uv, TemporalMode::kNone, {}, mapped));
 }
 
 TEST(RegionProjection, AKeyedFormCountsWhereAnyKeyShowsIt) {

@@ -46,6 +46,60 @@ TEST(Placement, ScaleIsPlatePixelsATexelAboutTheOffset) {
     EXPECT_LT(distance(on_plate(p, {10, 4}), {75, 30}), 1e-3f);
 }
 
+// Of an anamorphic plate scale, rotation and squares are those of the picture unsqueezed.
+TEST(Placement, ActsOnTheUnsqueezedPicture) {
+    PlanePlacement p;
+    p.aspect = PixelAspect(2);
+    p.offset_px = {100, 40};
+    EXPECT_LT(distance(on_plate(p, {0, 0}), {100, 40}), 1e-3f);
+    EXPECT_LT(distance(on_plate(p, {16, 0}), {108, 40}), 1e-3f);
+    EXPECT_LT(distance(on_plate(p, {0, 16}), {100, 56}), 1e-3f);
+    p.scale = 3;
+    for (const float degrees : {0.0f, 30.0f, 45.0f, 90.0f, 200.0f}) {
+        p.rotate_deg = degrees;
+        const Vec2 origin = p.aspect.unsqueezed(on_plate(p, {0, 0}));
+        const Vec2 u = p.aspect.unsqueezed(on_plate(p, {10, 0})) - origin;
+        const Vec2 v = p.aspect.unsqueezed(on_plate(p, {0, 10})) - origin;
+        EXPECT_NEAR(std::hypot(u.x, u.y), 30, 1e-2f) << degrees;
+        EXPECT_NEAR(std::hypot(v.x, v.y), 30, 1e-2f) << degrees;
+        EXPECT_NEAR(u.x * v.x + u.y * v.y, 0, 1e-1f) << degrees << ": no shear";
+        const float turned = std::atan2(-u.y, u.x) * 180 / 3.14159265f;
+        EXPECT_NEAR(std::remainder(turned - degrees, 360.0f), 0, 1e-2f);
+    }
+}
+
+// Every way to ask the mapping gives the same answer.
+TEST(Placement, AnAnamorphicMappingAgreesWithItself) {
+    PlanePlacement p;
+    p.aspect = PixelAspect(2);
+    p.scale = 1.7f;
+    p.rotate_deg = 30;
+    p.offset_px = {20, 30};
+    const TextureMapping map = *texture_mapping(p);
+    const Vec2 at(61, 47), step(0.5f, 0.25f);
+    EXPECT_LT(distance(map.inverse().pixel(map.texel(at)), at), 1e-3f);
+    const auto here = map.linear_at(at);
+    EXPECT_LT(distance(here.texel, map.texel(at)), 1e-4f);
+    EXPECT_LT(distance(here.step(step), map.texel(at + step) - map.texel(at)), 1e-3f);
+    EXPECT_LT(distance(map.on_smaller_frame(2).texel(at / 2.0f), map.texel(at)), 1e-3f);
+}
+
+// A square of the picture unsqueezed, given by its corners on the plate, holds squares.
+TEST(Placement, CornersOfAnAnamorphicPlateHoldSquares) {
+    PlanePlacement p;
+    p.aspect = PixelAspect(2);
+    p.corners = {Vec2(10, 20), Vec2(60, 20), Vec2(60, 120), Vec2(10, 120)};
+    const TextureMapping map = *texture_mapping(p);
+    EXPECT_LT(distance(map.texel({60, 120}), {100, 100}), 0.1f);
+    EXPECT_LT(distance(map.texel({35, 20}), {50, 0}), 0.1f);
+    p.rotate_deg = 45;
+    const TextureMapping turned = *texture_mapping(p);
+    const Vec2 right = turned.texel({40, 60}) - turned.texel({35, 60});
+    const Vec2 down = turned.texel({35, 70}) - turned.texel({35, 60});
+    EXPECT_NEAR(std::hypot(right.x, right.y), std::hypot(down.x, down.y), 0.01f);
+    EXPECT_NEAR(right.x * down.x + right.y * down.y, 0, 0.1f);
+}
+
 const std::array<Vec2, 4> kFloor{Vec2(120, 60), Vec2(220, 70), Vec2(300, 180), Vec2(40, 170)};
 
 TEST(Placement, CornersBoundARectangleOfThePlane) {

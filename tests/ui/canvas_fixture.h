@@ -13,7 +13,7 @@ class CanvasTest : public PanelTest {
         const DrawnItem* canvas = robot->find("Viewer/Canvas");
         if (!canvas) return {0, 0};
         const ViewerState& s = shell->state().viewer;
-        return ViewMap{canvas->min, canvas->max, s.center, s.zoom}.to_screen({x, y});
+        return ViewMap{canvas->min, canvas->max, s.center, s.zoom, s.aspect}.to_screen({x, y});
     }
     /// The edits of a kind that were done.
     template <class T>

@@ -227,5 +227,33 @@ TEST(FormDrawing, TheSourceBecomesTheShapeOnlyWhereAnotherWouldBeRead) {
     EXPECT_THAT(ui::edits_of_form(region, {}, level), SizeIs(1));
 }
 
+// A ball is round, and a cylinder as wide across as it looks, on the picture unsqueezed.
+TEST(FormDrawing, IsThatOfTheUnsqueezedPicture) {
+    const PixelAspect aspect(2);
+    const auto ball =
+        ui::guide_of_drag(FormGuideKind::kBall, {50, 50}, {60, 50}, Matte(100, 100), aspect);
+    ASSERT_TRUE(ball);
+    EXPECT_THAT(ball->numbers, ::testing::ElementsAre(50, 50, 20));
+    const auto lines = ui::lines_of(*ball, aspect);
+    for (const Vec2 place : lines[0]) {
+        const Vec2 way = aspect.unsqueezed(place - Vec2(50, 50));
+        EXPECT_NEAR(std::hypot(way.x, way.y), 20, 1e-3);
+    }
+    const auto handles = ui::handles_of(*ball, aspect);
+    EXPECT_NEAR(handles[1].at.x, 60, 1e-4);
+    EXPECT_NEAR(ui::with_handle_at(*ball, 1, {50, 80}, aspect).numbers[2], 30, 1e-4);
+    const auto moved = ui::with_handle_at(*ball, 0, {70, 40}, aspect);
+    EXPECT_THAT(moved.numbers, ::testing::ElementsAre(70, 40, 20));
+    Matte band(100, 100);
+    for (int y = 10; y < 90; ++y)
+        for (int x = 40; x < 60; ++x)
+            band.at(x, y) = 255;
+    const auto column =
+        ui::guide_of_drag(FormGuideKind::kCylinder, {50, 15}, {50, 85}, band, aspect);
+    ASSERT_TRUE(column);
+    EXPECT_NEAR(column->numbers[4], 20, 2) << "ten pixels of the plate";
+    EXPECT_NEAR(ui::handles_of(*column, aspect)[2].at.x, 40, 1.1);
+}
+
 }  // namespace
 }  // namespace weft::test

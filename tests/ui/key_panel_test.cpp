@@ -263,5 +263,19 @@ TEST(ShapeBox, TurnsAndScalesAboutAPivot) {
     EXPECT_GE(box[2].y, 11);
 }
 
+TEST(ShapeBox, TurnsTheUnsqueezedPicture) {
+    RotoShape shape;
+    shape.points = {{{10, 0}, {0, 0}, {2, 0}, 3}, {{0, 10}}, {{0, 0}}};
+    const PixelAspect aspect(2);
+    const RotoShape turned = ui::turned_shape(shape, {0, 0}, 1, 1.5707963f, aspect);
+    EXPECT_NEAR(turned.points[0].at.x, 0, 1e-4);
+    EXPECT_NEAR(turned.points[0].at.y, 20, 1e-4);
+    EXPECT_NEAR(turned.points[1].at.x, -5, 1e-4);
+    EXPECT_NEAR(turned.points[0].out.y, 4, 1e-4);
+    const auto box = ui::box_of_shape(shape, 4, aspect);
+    EXPECT_NEAR(box[0].x, -2, 0.1);
+    EXPECT_LE(box[0].y, -4);
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -345,6 +345,26 @@ TEST_F(PanelTest, ThePlatesColourSpaceCanBeOneOfTheConfig) {
     EXPECT_EQ(std::get<std::string>(set->value), "ACEScg");
 }
 
+TEST_F(PanelTest, ThePixelAspectIsTheFilesOrAnotherOne) {
+    view.plate.pixel_aspect = 2;
+    shell->state().shot_open = true;
+    robot->frames(3);
+    EXPECT_EQ(shell->state().viewer.aspect, 2);
+    ASSERT_TRUE(robot->click("Automatic pixel aspect"));
+    const auto edits = emitted<DoEdit>();
+    ASSERT_THAT(edits, SizeIs(1));
+    const auto* set = std::get_if<SetProjectParameter>(&edits[0].edit);
+    ASSERT_NE(set, nullptr);
+    EXPECT_EQ(set->key, "plate.pixel_aspect");
+    EXPECT_EQ(std::get<double>(set->value), 2);
+    view.project.plate.pixel_aspect = 2;
+    robot->frames(2);
+    EXPECT_TRUE(robot->find("Pixel aspect"));
+    shell->state().viewer.squeezed = true;
+    robot->frames(2);
+    EXPECT_EQ(shell->state().viewer.aspect, 1) << "the plate's pixels are squares";
+}
+
 TEST_F(PanelTest, ClosingWaitsForTheSaveAndIsCancelledIfItFails) {
     view.modified = true;
     shell->ask_to_leave();

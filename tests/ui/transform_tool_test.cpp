@@ -152,6 +152,72 @@ TEST_F(TransformTool, CornerPinsBeginOnThePlaneThatWasFoundAndSaySo) {
     EXPECT_EQ(shell->state().form.pinned_on.at(1), view.preview.forms[1]);
 }
 
+// On an anamorphic plate the mouse turns and scales what is seen, unsqueezed, and the offset stays
+// in pixels of the plate.
+class AnamorphicTransformTool : public TransformTool {
+  protected:
+    void SetUp() override {
+        TransformTool::SetUp();
+        view.plate.pixel_aspect = 2;
+    }
+};
+
+TEST_F(AnamorphicTransformTool, ADragInsideMovesByPixelsOfThePlate) {
+    go("Texture", Tool::kPlace);
+    ASSERT_EQ(shell->state().viewer.aspect, 2);
+    robot->stroke({on(100, 80), on(110, 82), on(130, 90)});
+    const Placement now = placed();
+    EXPECT_NEAR(now.offset_px.x, 30, 0.6);
+    EXPECT_NEAR(now.offset_px.y, 10, 0.6);
+}
+
+TEST_F(AnamorphicTransformTool, ADragOutsideTurnsAsTheMouseDoes) {
+    go("Texture", Tool::kPlace);
+    // About (90, 70), from the right to below it: a quarter turn of what is seen.
+    robot->stroke({on(150, 70), on(120, 140), on(90, 190)});
+    const Placement now = placed();
+    EXPECT_NEAR(now.rotate_deg, -90, 1);
+    // The origin, 180 unsqueezed pixels left of the pivot and 70 above it, goes with it.
+    EXPECT_NEAR(now.offset_px.x, 90 + 70 / 2.0, 2);
+    EXPECT_NEAR(now.offset_px.y, 70 - 180, 2);
+}
+
+TEST_F(AnamorphicTransformTool, ACornerScalesAboutTheMiddleOfTheBox) {
+    go("Texture", Tool::kPlace);
+    robot->stroke({on(120, 100), on(130, 110), on(150, 130)});
+    const Placement now = placed();
+    EXPECT_NEAR(now.scale, 2, 0.03);
+    EXPECT_NEAR(now.offset_px.x, -90, 3);
+    EXPECT_NEAR(now.offset_px.y, -70, 3);
+}
+
+TEST_F(AnamorphicTransformTool, CornersBeginAroundTheRegion) {
+    go("Texture", Tool::kPan);
+    ASSERT_TRUE(robot->click("Perspective"));
+    robot->frames(2);
+    ASSERT_TRUE(robot->click("Add corner pin"));
+    const auto set = edits<SetRegionParameter>();
+    ASSERT_THAT(set, SizeIs(1));
+    EXPECT_THAT(std::get<std::vector<double>>(set[0].value),
+                ElementsAre(60, 40, 120, 40, 120, 100, 60, 100));
+}
+
+TEST(TransformBox, IsARectangleOfTheUnsqueezedPicture) {
+    const PixelAspect aspect(2);
+    Matte matte(100, 100);
+    for (int y = 30; y < 70; ++y)
+        for (int x = 40; x < 60; ++x)
+            matte.at(x, y) = 255;
+    auto box = ui::box_around(matte, 45, aspect);
+    ASSERT_TRUE(box);
+    for (Vec2& corner : *box)
+        corner = aspect.unsqueezed(corner) - Vec2(100, 50);
+    for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_NEAR(std::hypot((*box)[k].x, (*box)[k].y), 40, 0.1);
+    EXPECT_NEAR((*box)[0].x, -40, 0.1);
+    EXPECT_NEAR((*box)[0].y, 0, 0.1);
+}
+
 TEST(TransformBox, FollowsTheTexturesAxes) {
     Matte matte(100, 100);
     for (int y = 30; y < 70; ++y)

@@ -236,7 +236,7 @@ ImVec2 SessionTest::at(float x, float y) const {
     const DrawnItem* canvas = robot->find("Viewer/Canvas");
     if (!canvas) return {0, 0};
     const ViewerState& s = shell->state().viewer;
-    return ViewMap{canvas->min, canvas->max, s.center, s.zoom}.to_screen({x, y});
+    return ViewMap{canvas->min, canvas->max, s.center, s.zoom, s.aspect}.to_screen({x, y});
 }
 
 }  // namespace weft::test

@@ -52,10 +52,11 @@ enum class Compare : std::uint8_t { kResult, kPlate, kWipe, kDifference, kSideBy
 
 struct ViewerState {
     bool fit = true;
-    float zoom = 1;         ///< Screen pixels per plate pixel.
-    float aspect = 1;       ///< Pixel aspect ratio of the plate.
-    std::string aspect_of;  ///< Plate from which it was read; the user may change it afterwards.
-    Vec2 center{0, 0};      ///< Plate pixel at the centre of the view.
+    float zoom = 1;                        ///< Screen pixels per plate pixel, vertically.
+    float aspect = 1;                      ///< Width of a plate pixel on screen over its height.
+    bool squeezed = false;                 ///< Shows the plate's pixels as squares.
+    std::optional<double> aspect_dragged;  ///< While the setting is being dragged.
+    Vec2 center{0, 0};                     ///< Plate pixel at the centre of the view.
     Compare compare = Compare::kResult;
     float wipe = 0.5f;
     bool hold_original = false;

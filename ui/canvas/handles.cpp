@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace weft::ui {
@@ -90,6 +91,28 @@ bool take_back_drag(Ctx& c) {
     if (std::exchange(s.brush.lassoing, false)) s.brush.outline.clear();
     c.drop_tried();
     return true;
+}
+
+PixelAspect plate_aspect(const Ctx& c) {
+    return PixelAspect(c.view.plate.pixel_aspect);
+}
+
+void plate_circle(Ctx& c, const ViewMap& map, Vec2 middle, float radius_px, ImU32 color,
+                  float width) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const PixelAspect aspect = plate_aspect(c);
+    const float r = radius_px * map.zoom;
+    const int segments = std::clamp(static_cast<int>(r), 16, 96);
+    const ImVec2 on = map.to_screen(middle);
+    if (map.aspect == aspect.ratio()) return list.AddCircle(on, r, color, segments, width);
+    std::vector<ImVec2> points;
+    for (int k = 0; k < segments; ++k) {
+        const float angle =
+            2 * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(segments);
+        const Vec2 way = radius_px * Vec2(std::cos(angle), std::sin(angle));
+        points.push_back(map.to_screen(middle + aspect.squeezed(way)));
+    }
+    list.AddPolyline(points.data(), segments, color, ImDrawFlags_Closed, width);
 }
 
 void plate_line(Ctx& c, const ViewMap& map, Vec2 from, Vec2 to, ImU32 color) {

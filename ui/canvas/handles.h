@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/pixel_aspect.h"
 #include "ui/base/ctx.h"
 #include "ui/canvas/view_map.h"
 
@@ -29,6 +30,13 @@ bool take_back_drag(Ctx& c);
 [[nodiscard]] bool breaks_off();
 /// The arrow key that was pressed, in pixels: 1, with Shift 10.
 [[nodiscard]] Vec2 arrow_step();
+
+/// The shape of the plate's pixels.
+[[nodiscard]] PixelAspect plate_aspect(const Ctx& c);
+/// A circle of the picture unsqueezed: an ellipse while the view shows it squeezed. `radius_px`:
+/// unsqueezed.
+void plate_circle(Ctx& c, const ViewMap& map, Vec2 middle, float radius_px, ImU32 color,
+                  float width);
 
 /// A line between two places of the plate.
 void plate_line(Ctx& c, const ViewMap& map, Vec2 from, Vec2 to, ImU32 color);

@@ -32,20 +32,28 @@ glm::dvec2 across(const FormGuide& guide) {
     return {-axis.y / l, axis.x / l};
 }
 
-bool inside(const ViewU8x1& matte, glm::dvec2 p) {
+// A matte by unsqueezed places.
+struct SeenMatte {
+    const ViewU8x1& pixels;
+    PixelAspect aspect;
+};
+
+bool inside(const SeenMatte& seen, glm::dvec2 unsqueezed) {
+    const ViewU8x1& matte = seen.pixels;
+    const glm::dvec2 p = seen.aspect.squeezed(unsqueezed);
     return p.x >= 0 && p.y >= 0 && p.x < matte.width() && p.y < matte.height() &&
            matte.at(static_cast<int>(p.x), static_cast<int>(p.y)) >= 128;
 }
 
 // How far the matte reaches from `at` to the nearer side; 0 outside of it.
-double half_width(const ViewU8x1& matte, glm::dvec2 at, glm::dvec2 way) {
+double half_width(const SeenMatte& matte, glm::dvec2 at, glm::dvec2 way) {
     double out = 0;
     while (inside(matte, at + out * way) && inside(matte, at - out * way))
         out += 1;
     return out;
 }
 
-FormGuide round_guide(FormGuideKind kind, glm::dvec2 a, glm::dvec2 b, const ViewU8x1& matte) {
+FormGuide round_guide(FormGuideKind kind, glm::dvec2 a, glm::dvec2 b, const SeenMatte& matte) {
     FormGuide out{kind, {a.x, a.y, b.x, b.y, 0, 0}};
     // A little inside of the ends, where the outline still runs along the axis.
     constexpr double kIn = 0.1;
@@ -113,8 +121,8 @@ std::vector<std::vector<Vec2>> round_lines(const FormGuide& guide) {
 }  // namespace
 
 std::optional<FormGuide> guide_of_drag(FormGuideKind kind, Vec2 from, Vec2 to,
-                                       const ViewU8x1& matte) {
-    const glm::dvec2 a = exact(from), b = exact(to);
+                                       const ViewU8x1& matte, PixelAspect aspect) {
+    const glm::dvec2 a = aspect.unsqueezed(exact(from)), b = aspect.unsqueezed(exact(to));
     FormGuide out{kind, {a.x, a.y, b.x, b.y}};
     switch (kind) {
         case FormGuideKind::kPlane: {
@@ -125,7 +133,7 @@ std::optional<FormGuide> guide_of_drag(FormGuideKind kind, Vec2 from, Vec2 to,
         }
         case FormGuideKind::kCylinder:
         case FormGuideKind::kCone:
-            out = round_guide(kind, a, b, matte);
+            out = round_guide(kind, a, b, {matte, aspect});
             break;
         case FormGuideKind::kBall:
             out.numbers = {a.x, a.y, length_of(b - a)};
@@ -135,11 +143,13 @@ std::optional<FormGuide> guide_of_drag(FormGuideKind kind, Vec2 from, Vec2 to,
         case FormGuideKind::kCut:
             break;
     }
+    out = squeezed(std::move(out), aspect);
     if (!check_form_guide(out)) return std::nullopt;
     return out;
 }
 
-std::vector<GuideHandle> handles_of(const FormGuide& guide) {
+std::vector<GuideHandle> handles_of(const FormGuide& squeezed, PixelAspect aspect) {
+    const FormGuide guide = unsqueezed(squeezed, aspect);
     std::vector<GuideHandle> out;
     switch (guide.kind) {
         case FormGuideKind::kPlane: {
@@ -175,12 +185,15 @@ std::vector<GuideHandle> handles_of(const FormGuide& guide) {
             }
             break;
     }
+    for (GuideHandle& one : out)
+        one.at = aspect.squeezed(one.at);
     return out;
 }
 
-FormGuide with_handle_at(const FormGuide& guide, std::size_t handle, Vec2 to) {
+FormGuide with_handle_at(const FormGuide& drawn, std::size_t handle, Vec2 to, PixelAspect aspect) {
+    const FormGuide guide = unsqueezed(drawn, aspect);
     FormGuide out = guide;
-    const glm::dvec2 at = exact(to);
+    const glm::dvec2 at = aspect.unsqueezed(exact(to));
     const bool round = guide.kind == FormGuideKind::kCylinder || guide.kind == FormGuideKind::kCone;
     if (handles_of(guide)[handle].name == "middle") {
         const glm::dvec2 by = at - exact(handles_of(guide)[handle].at);
@@ -195,10 +208,12 @@ FormGuide with_handle_at(const FormGuide& guide, std::size_t handle, Vec2 to) {
     } else {
         put(out, 2 * handle, at);
     }
-    return out;
+    return squeezed(std::move(out), aspect);
 }
 
-std::vector<std::vector<Vec2>> lines_of(const FormGuide& guide) {
+namespace {
+
+std::vector<std::vector<Vec2>> unsqueezed_lines(const FormGuide& guide) {
     switch (guide.kind) {
         case FormGuideKind::kPlane:
             return plane_lines(guide);
@@ -223,15 +238,28 @@ std::vector<std::vector<Vec2>> lines_of(const FormGuide& guide) {
     return out;
 }
 
-void add_parallel(const FormGuide& stroke, std::vector<FormGuide>& strokes) {
-    const glm::dvec2 way = stroke.place(2) - stroke.place(0);
+}  // namespace
+
+std::vector<std::vector<Vec2>> lines_of(const FormGuide& guide, PixelAspect aspect) {
+    auto out = unsqueezed_lines(unsqueezed(guide, aspect));
+    for (auto& line : out)
+        for (Vec2& place : line)
+            place = aspect.squeezed(place);
+    return out;
+}
+
+void add_parallel(const FormGuide& stroke, std::vector<FormGuide>& strokes, PixelAspect aspect) {
+    const auto direction = [&](const FormGuide& line) {
+        return aspect.unsqueezed(line.place(2) - line.place(0));
+    };
+    const glm::dvec2 way = direction(stroke);
     FormGuide* last = nullptr;
     int groups = 0;
     for (FormGuide& group : strokes) {
         if (group.kind != FormGuideKind::kParallel) continue;
         ++groups;
         last = &group;
-        const glm::dvec2 other = group.place(2) - group.place(0);
+        const glm::dvec2 other = direction(group);
         const double dot = std::abs(way.x * other.x + way.y * other.y);
         if (dot >= std::sqrt(0.5) * length_of(way) * length_of(other)) break;
         last = groups == 2 ? &group : nullptr;

@@ -12,7 +12,7 @@ namespace {
 
 void draw_lines(Ctx& c, const ViewMap& map, const FormGuide& guide, ImU32 color) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    for (const std::vector<Vec2>& line : lines_of(guide)) {
+    for (const std::vector<Vec2>& line : lines_of(guide, plate_aspect(c))) {
         std::vector<ImVec2> on_screen;
         for (const Vec2 p : line)
             on_screen.push_back(map.to_screen(p));
@@ -36,24 +36,28 @@ std::string id_of(const FormGuide& guide, std::size_t index) {
 // A stroke lies on a straight edge of the plate as a whole, if there is one beside it.
 FormGuide with_snapped_handle(Ctx& c, const ViewMap& map, const FormGuide& guide, std::size_t k,
                               Vec2 at) {
-    if (!snaps(c)) return with_handle_at(guide, k, at);
+    const PixelAspect aspect = plate_aspect(c);
+    if (!snaps(c)) return with_handle_at(guide, k, at, aspect);
     if (!is_shape(guide.kind)) {
         const std::size_t other = k ^ 1U;
-        const auto ends = snapped_segment(c, map, handles_of(guide)[other].at, at);
-        if (ends) return with_handle_at(with_handle_at(guide, other, ends->first), k, ends->second);
+        const auto ends = snapped_segment(c, map, handles_of(guide, plate_aspect(c))[other].at, at);
+        if (ends)
+            return with_handle_at(with_handle_at(guide, other, ends->first, aspect), k,
+                                  ends->second, aspect);
     }
-    return with_handle_at(guide, k, snapped(c, map, at, true));
+    return with_handle_at(guide, k, snapped(c, map, at, true), aspect);
 }
 
 // What a drag draws, its ends on edges of the plate while they snap.
 std::optional<FormGuide> drawn_guide(Ctx& c, const ViewMap& map, FormGuideKind kind, Vec2 from,
                                      Vec2 to) {
-    if (!snaps(c)) return guide_of_drag(kind, from, to, matte_of(c));
+    const PixelAspect aspect = plate_aspect(c);
+    if (!snaps(c)) return guide_of_drag(kind, from, to, matte_of(c), aspect);
     if (!is_shape(kind))
         if (const auto ends = snapped_segment(c, map, from, to))
-            return guide_of_drag(kind, ends->first, ends->second, matte_of(c));
+            return guide_of_drag(kind, ends->first, ends->second, matte_of(c), aspect);
     const Vec2 begin = snapped(c, map, from, true);
-    return guide_of_drag(kind, begin, snapped(c, map, to, true), matte_of(c));
+    return guide_of_drag(kind, begin, snapped(c, map, to, true), matte_of(c), aspect);
 }
 
 struct Touched {
@@ -74,7 +78,7 @@ void show_problem(Ctx& c, const ViewMap& map, const FormToolState& drawn) {
     ImVec2 at(map.max.x, map.max.y);
     for (const auto* guides : {&drawn.shape, &drawn.strokes})
         for (const FormGuide& guide : *guides)
-            for (const GuideHandle& one : handles_of(guide)) {
+            for (const GuideHandle& one : handles_of(guide, plate_aspect(c))) {
                 const ImVec2 place = map.to_screen(one.at);
                 at = {std::min(at.x, place.x), std::min(at.y, place.y)};
             }
@@ -97,7 +101,7 @@ void show_problem(Ctx& c, const ViewMap& map, const FormToolState& drawn) {
 Touched drag_guide_handles(Ctx& c, const ViewMap& map, bool hovered, std::size_t index,
                            FormGuide& guide) {
     Touched out;
-    const std::vector<GuideHandle> handles = handles_of(guide);
+    const std::vector<GuideHandle> handles = handles_of(guide, plate_aspect(c));
     const ImU32 color = problem_of(c)          ? c.theme.bad
                         : is_shape(guide.kind) ? c.theme.accent_hover
                                                : c.theme.warn;
@@ -144,7 +148,7 @@ void take(Ctx& c, const Region& region, const FormGuide& drawn) {
         if (s.parallel) s.strokes.push_back(*s.parallel);
         s.parallel.reset();
         s.shape.clear();
-        add_parallel(drawn, s.strokes);
+        add_parallel(drawn, s.strokes, plate_aspect(c));
     }
     set_form(c, region);
 }

@@ -54,7 +54,7 @@ void lamp_tool(Ctx& c, const ViewMap& map, bool hovered) {
     const std::vector<Lamp>& lamps = region->light.lamps;
     const Size plate = c.view.plate.size;
     const Vec2 middle{static_cast<float>(plate.width) / 2, static_cast<float>(plate.height) / 2};
-    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const PixelAspect aspect = plate_aspect(c);
     for (std::size_t k = 0; k < lamps.size(); ++k) {
         std::vector<float> n = lamps[k].numbers.float_at(c.view.frame);
         const std::string id = "lamp " + std::to_string(k + 1);
@@ -63,12 +63,12 @@ void lamp_tool(Ctx& c, const ViewMap& map, bool hovered) {
         bool taken = false;
         if (lamps[k].kind == LampKind::kPoint) {
             const Vec2 at{n[0], n[1]};
-            list.AddCircle(map.to_screen(at), n[2] * map.zoom, faded(color, 0.7f), 64,
-                           c.theme.px(1.5f));
-            Vec2 rim{n[0] + n[2], n[1]};
+            plate_circle(c, map, at, n[2], faded(color, 0.7f), c.theme.px(1.5f));
+            Vec2 rim = at + aspect.squeezed(Vec2(n[2], 0));
             const Grip on_rim = handle(c, map, id + " radius", rim, hovered, color, false);
             if (on_rim == Grip::kHeld || on_rim == Grip::kLetGo) {
-                n[2] = std::max(4.0f, std::hypot(rim.x - n[0], rim.y - n[1]));
+                const Vec2 way = aspect.unsqueezed(rim - at);
+                n[2] = std::max(4.0f, std::hypot(way.x, way.y));
                 grip = on_rim;
             }
             taken = on_rim == Grip::kTaken;
@@ -80,13 +80,13 @@ void lamp_tool(Ctx& c, const ViewMap& map, bool hovered) {
         } else {
             const float reach = 0.3f * static_cast<float>(std::min(plate.width, plate.height));
             const auto angle = static_cast<float>(static_cast<double>(n[0]) * kDegree);
-            Vec2 from = middle + Vec2{std::cos(angle), -std::sin(angle)} * reach;
+            Vec2 from = middle + aspect.squeezed(Vec2{std::cos(angle), -std::sin(angle)} * reach);
             plate_line(c, map, from, middle, faded(color, 0.7f));
             const Grip now = handle(c, map, id, from, hovered, color);
             if (now == Grip::kHeld || now == Grip::kLetGo) {
-                n[0] = static_cast<float>(std::atan2(static_cast<double>(middle.y - from.y),
-                                                     static_cast<double>(from.x - middle.x)) /
-                                          kDegree);
+                const Vec2 way = aspect.unsqueezed(from - middle);
+                n[0] = static_cast<float>(
+                    std::atan2(-static_cast<double>(way.y), static_cast<double>(way.x)) / kDegree);
                 grip = now;
             }
             taken = now == Grip::kTaken;

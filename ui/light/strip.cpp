@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ui/base/icons.h"
+#include "ui/canvas/handles.h"
 #include "ui/light/light.h"
 #include "ui/widgets/widgets.h"
 
@@ -34,10 +35,11 @@ void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(min, max, t.field, t.radius);
     if (one.picture) {
-        const float zoom = std::min((max.x - min.x) / static_cast<float>(one.picture->size.width),
-                                    (max.y - min.y) / static_cast<float>(one.picture->size.height));
-        const float w = zoom * static_cast<float>(one.picture->size.width);
-        const float h = zoom * static_cast<float>(one.picture->size.height);
+        const Vec2 shown =
+            plate_aspect(c).unsqueezed(Vec2(static_cast<float>(one.picture->size.width),
+                                            static_cast<float>(one.picture->size.height)));
+        const float zoom = std::min((max.x - min.x) / shown.x, (max.y - min.y) / shown.y);
+        const float w = zoom * shown.x, h = zoom * shown.y;
         const ImVec2 at(std::floor(min.x + (max.x - min.x - w) / 2),
                         std::floor(min.y + (max.y - min.y - h) / 2));
         if (const ImTextureID id = c.pictures.texture(one.picture))
@@ -181,8 +183,9 @@ void strip_panel(Ctx& c, ImVec2 size) {
         return;
     }
     const Size plate = c.view.plate.size;
-    const float aspect =
-        plate.empty() ? 1.78f : static_cast<float>(plate.width) / static_cast<float>(plate.height);
+    const float aspect = plate.empty() ? 1.78f
+                                       : plate_aspect(c).ratio() * static_cast<float>(plate.width) /
+                                             static_cast<float>(plate.height);
     const ImVec2 at(origin.x + t.px(10), origin.y + top);
     const ImVec2 room(size.x - t.px(20), size.y - top - t.px(6));
     if (strip.columns > 0)

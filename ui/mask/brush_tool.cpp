@@ -21,14 +21,14 @@ void brush_ring(Ctx& c, const ViewMap& map) {
     const Brush brush = brush_now(c);
     const float r = std::max(2.0f, brush.radius_px * map.zoom);
     const ImVec2 at = ImGui::GetIO().MousePos;
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const int segments = std::clamp(static_cast<int>(r), 16, 96);
-    list.AddCircle(at, r + 1, IM_COL32(0, 0, 0, 150), segments, c.theme.px(1));
-    list.AddCircle(at, r, brush.subtract ? c.theme.bad : IM_COL32(255, 255, 255, 230), segments,
-                   c.theme.px(1));
+    const auto ring = [&](float radius, ImU32 color) {
+        plate_circle(c, map, map.to_plate(at), radius / map.zoom, color, c.theme.px(1));
+    };
+    ring(r + 1, IM_COL32(0, 0, 0, 150));
+    ring(r, brush.subtract ? c.theme.bad : IM_COL32(255, 255, 255, 230));
     const float core = r * brush.hardness;
-    if (brush.hardness < 0.95f && core > 3)
-        list.AddCircle(at, core, IM_COL32(255, 255, 255, 80), segments, c.theme.px(1));
+    if (brush.hardness < 0.95f && core > 3) ring(core, IM_COL32(255, 255, 255, 80));
+    ImDrawList& list = *ImGui::GetWindowDrawList();
     const float k = c.theme.px(3);
     list.AddLine({at.x - k, at.y}, {at.x + k, at.y}, IM_COL32(255, 255, 255, 200));
     list.AddLine({at.x, at.y - k}, {at.x, at.y + k}, IM_COL32(255, 255, 255, 200));

@@ -13,10 +13,10 @@ namespace {
 
 constexpr float kMargin = 14, kStem = 26;  // unscaled px on screen
 
-Vec2 turned(Vec2 p, Vec2 pivot, float scale, float radians) {
-    const Vec2 d = p - pivot;
+Vec2 turned(Vec2 p, Vec2 pivot, float scale, float radians, PixelAspect aspect) {
+    const Vec2 d = aspect.unsqueezed(p - pivot);
     const float co = scale * std::cos(radians), si = scale * std::sin(radians);
-    return pivot + Vec2(co * d.x - si * d.y, si * d.x + co * d.y);
+    return pivot + aspect.squeezed(Vec2(co * d.x - si * d.y, si * d.x + co * d.y));
 }
 
 Vec2 middle_of(const Quad<float>& box) {
@@ -36,22 +36,23 @@ bool is_inside(const std::vector<Vec2>& outline, Vec2 p) {
 
 }  // namespace
 
-Quad<float> box_of_shape(const RotoShape& shape, float margin) {
+Quad<float> box_of_shape(const RotoShape& shape, float margin, PixelAspect aspect) {
     Vec2 low(1e9f), high(-1e9f);
     for (const Vec2 p : outline_of(shape)) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
-    low -= Vec2(margin);
-    high += Vec2(margin);
+    low -= aspect.squeezed(Vec2(margin));
+    high += aspect.squeezed(Vec2(margin));
     return {low, Vec2(high.x, low.y), high, Vec2(low.x, high.y)};
 }
 
-RotoShape turned_shape(RotoShape shape, Vec2 pivot, float scale, float radians) {
+RotoShape turned_shape(RotoShape shape, Vec2 pivot, float scale, float radians,
+                       PixelAspect aspect) {
     for (RotoPoint& p : shape.points) {
-        p.at = turned(p.at, pivot, scale, radians);
-        p.in = turned(p.in, {0, 0}, scale, radians);
-        p.out = turned(p.out, {0, 0}, scale, radians);
+        p.at = turned(p.at, pivot, scale, radians, aspect);
+        p.in = turned(p.in, {0, 0}, scale, radians, aspect);
+        p.out = turned(p.out, {0, 0}, scale, radians, aspect);
         p.feather_px *= scale;
     }
     return shape;
@@ -87,15 +88,16 @@ bool shape_box(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
     }
     // Of the shape as it was when the drag began, turned with it.
     const RotoShape& from = s.from ? *s.from : shape;
-    Quad<float> box = box_of_shape(from, c.theme.px(kMargin) / map.zoom);
+    const PixelAspect aspect = plate_aspect(c);
+    Quad<float> box = box_of_shape(from, c.theme.px(kMargin) / map.zoom, aspect);
     Vec2 pivot = s.pivot.value_or(middle_of(box));
     for (Vec2& corner : box)
-        corner = turned(corner, pivot, s.scale, s.radians);
+        corner = turned(corner, pivot, s.scale, s.radians, aspect);
     quad_lines(c, map, box);
     const Vec2 top = 0.5f * (box[0] + box[1]);
-    const Vec2 side = box[0] - box[3];
+    const Vec2 side = aspect.unsqueezed(box[0] - box[3]);
     const float length = std::max(1e-3f, std::hypot(side.x, side.y));
-    Vec2 knob = top + side * (c.theme.px(kStem) / map.zoom / length);
+    Vec2 knob = top + aspect.squeezed(side * (c.theme.px(kStem) / map.zoom / length));
     ImGui::GetWindowDrawList()->AddLine(map.to_screen(top), map.to_screen(knob),
                                         c.theme.accent_hover, c.theme.px(1.5f));
     bool done = false;
@@ -108,14 +110,14 @@ bool shape_box(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
             s.start = start;
         }
         if (!s.from || (grip != Grip::kHeld && grip != Grip::kLetGo)) return;
-        const Vec2 a = s.start - pivot, b = at - pivot;
+        const Vec2 a = aspect.unsqueezed(s.start - pivot), b = aspect.unsqueezed(at - pivot);
         constexpr float kLeast = 0.02f, kMost = 50;
         if (turns)
             s.radians = std::atan2(b.y, b.x) - std::atan2(a.y, a.x);
         else
             s.scale = std::clamp(std::hypot(b.x, b.y) / std::max(1.0f, std::hypot(a.x, a.y)),
                                  kLeast, kMost);
-        shape = turned_shape(*s.from, pivot, s.scale, s.radians);
+        shape = turned_shape(*s.from, pivot, s.scale, s.radians, aspect);
         if (grip != Grip::kLetGo) return;
         done = s.scale != 1 || s.radians != 0;
         s.from.reset();

@@ -96,8 +96,7 @@ bool edit_points(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
         Vec2 at = p.at;
         const Grip grip = handle(c, map, id, at, hovered, color);
         over |= grip != Grip::kNone;
-        if (p.feather_px > 0)
-            list.AddCircle(map.to_screen(p.at), p.feather_px * map.zoom, faded(color, 0.5f), 32);
+        if (p.feather_px > 0) plate_circle(c, map, p.at, p.feather_px, faded(color, 0.5f), 1);
         if (grip == Grip::kTaken && breaks_off() && c.state.shape.points.size() > 3) {
             c.state.handle_held.clear();
             c.state.shape.points.erase(c.state.shape.points.begin() +
@@ -107,7 +106,8 @@ bool edit_points(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
         if (grip != Grip::kHeld && grip != Grip::kLetGo) continue;
         // Ctrl drags the feather, Shift moves the whole shape.
         if (ImGui::GetIO().KeyCtrl && !ImGui::GetIO().KeyShift) {
-            p.feather_px = std::hypot(at.x - p.at.x, at.y - p.at.y);
+            const Vec2 way = plate_aspect(c).unsqueezed(at - p.at);
+            p.feather_px = std::hypot(way.x, way.y);
         } else if (ImGui::GetIO().KeyShift) {
             const Vec2 by = at - p.at;
             for (RotoPoint& each : c.state.shape.points)

@@ -46,6 +46,16 @@ std::vector<Edit> edits_of_placement(const Region& region, int frame, const Plac
     return out;
 }
 
+PlacementNumbers unsqueezed(PlacementNumbers numbers, PixelAspect aspect) {
+    numbers.x *= static_cast<double>(aspect.ratio());
+    return numbers;
+}
+
+PlacementNumbers squeezed(PlacementNumbers numbers, PixelAspect aspect) {
+    numbers.x /= static_cast<double>(aspect.ratio());
+    return numbers;
+}
+
 PlacementNumbers scaled_about(PlacementNumbers from, Vec2 pivot, double factor) {
     const double scale = std::clamp(from.scale * factor, kLeastScale, kMostScale);
     const double by = scale / from.scale;
@@ -62,7 +72,7 @@ PlacementNumbers turned_about(PlacementNumbers from, Vec2 pivot, double degrees)
             py - s * dx + c * dy};
 }
 
-std::optional<Quad<float>> box_around(const ViewU8x1& matte, double degrees) {
+std::optional<Quad<float>> box_around(const ViewU8x1& matte, double degrees, PixelAspect aspect) {
     const auto c = static_cast<float>(std::cos(degrees * kDegree));
     const auto s = static_cast<float>(std::sin(degrees * kDegree));
     const Vec2 along(c, -s), down(s, c);
@@ -78,7 +88,8 @@ std::optional<Quad<float>> box_around(const ViewU8x1& matte, double degrees) {
             --last;
         for (const auto x : {first - row, last - row}) {
             for (const int under : {0, 1}) {
-                const Vec2 p(static_cast<float>(x), static_cast<float>(y + under));
+                const Vec2 p =
+                    aspect.unsqueezed(Vec2(static_cast<float>(x), static_cast<float>(y + under)));
                 const Vec2 q(p.x * along.x + p.y * along.y, p.x * down.x + p.y * down.y);
                 low = {std::min(low.x, q.x), std::min(low.y, q.y)};
                 high = {std::max(high.x, q.x), std::max(high.y, q.y)};
@@ -86,8 +97,11 @@ std::optional<Quad<float>> box_around(const ViewU8x1& matte, double degrees) {
         }
     }
     if (low.x > high.x) return std::nullopt;
-    return Quad<float>{low.x * along + low.y * down, high.x * along + low.y * down,
-                       high.x * along + high.y * down, low.x * along + high.y * down};
+    Quad<float> out{low.x * along + low.y * down, high.x * along + low.y * down,
+                    high.x * along + high.y * down, low.x * along + high.y * down};
+    for (Vec2& corner : out)
+        corner = aspect.squeezed(corner);
+    return out;
 }
 
 }  // namespace weft::ui

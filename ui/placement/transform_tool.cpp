@@ -20,10 +20,11 @@ const RegionMatteView* matte_view(const Ctx& c) {
     return nullptr;
 }
 
-// Where the placement acts for a place of this frame; the place itself while that is not known.
+// Where the placement acts for a place of this frame, unsqueezed; the place itself while that is
+// not known.
 Vec2 ground(const Ctx& c, Vec2 plate) {
     const auto& places = c.state.transform.places;
-    return places ? places->at(plate) : plate;
+    return places ? places->at(plate) : plate_aspect(c).unsqueezed(plate);
 }
 
 // Where two lines through a and b meet, each with a direction; nothing where they are parallel.
@@ -98,7 +99,7 @@ void follow_region(Ctx& c, const Region& region) {
     }
     const double angle = placement_on(region.placement, c.view.frame).rotate_deg;
     if (s.box && s.box_version == matte->version && s.box_angle == angle) return;
-    s.box = box_around(matte->pixels, angle);
+    s.box = box_around(matte->pixels, angle, plate_aspect(c));
     s.box_version = matte->version;
     s.box_angle = angle;
 }
@@ -111,37 +112,43 @@ Vec2 pivot_of(const Ctx& c) {
     return {static_cast<float>(plate.width) / 2, static_cast<float>(plate.height) / 2};
 }
 
-// What the drag does so far, from the mouse then and now as seen from the pivot.
-PlacementNumbers dragged(const Ctx& c, Vec2 mouse) {
+// What the drag does so far, from the mouse then and now as seen from the pivot, unsqueezed.
+PlacementNumbers dragged_unsqueezed(const Ctx& c, Vec2 mouse) {
     const TransformState& s = c.state.transform;
+    const PlacementNumbers from = unsqueezed(s.from, plate_aspect(c));
     const Vec2 pivot = ground(c, pivot_of(c));
     const Vec2 before = ground(c, s.mouse), now = ground(c, mouse);
     const Vec2 a = before - pivot, b = now - pivot;
     switch (s.drag) {
         case TransformState::Drag::kMove: {
-            PlacementNumbers out = s.from;
+            PlacementNumbers out = from;
             out.x += static_cast<double>(now.x - before.x);
             out.y += static_cast<double>(now.y - before.y);
             return out;
         }
         case TransformState::Drag::kScale: {
             const float reach = std::max(1.0f, std::hypot(a.x, a.y));
-            return scaled_about(s.from, pivot, static_cast<double>(std::hypot(b.x, b.y) / reach));
+            return scaled_about(from, pivot, static_cast<double>(std::hypot(b.x, b.y) / reach));
         }
         case TransformState::Drag::kRotate: {
             const float turn = std::atan2(a.y, a.x) - std::atan2(b.y, b.x);
-            return turned_about(s.from, pivot, static_cast<double>(turn) / kDegree);
+            return turned_about(from, pivot, static_cast<double>(turn) / kDegree);
         }
         case TransformState::Drag::kNone:
             break;
     }
-    return s.from;
+    return from;
+}
+
+PlacementNumbers dragged(const Ctx& c, Vec2 mouse) {
+    return squeezed(dragged_unsqueezed(c, mouse), plate_aspect(c));
 }
 
 // The box as the drag has moved it.
 Quad<float> dragged_box(const Ctx& c, const PlacementNumbers& now, Vec2 mouse) {
     const TransformState& s = c.state.transform;
     Quad<float> out = *s.box;
+    const PixelAspect aspect = plate_aspect(c);
     const Vec2 pivot = pivot_of(c);
     const double by = now.scale / s.from.scale;
     const double angle = (now.rotate_deg - s.from.rotate_deg) * kDegree;
@@ -151,8 +158,9 @@ Quad<float> dragged_box(const Ctx& c, const PlacementNumbers& now, Vec2 mouse) {
         if (s.drag == TransformState::Drag::kMove) {
             corner += mouse - s.mouse;
         } else if (s.drag != TransformState::Drag::kNone) {
-            const Vec2 d = corner - pivot;
-            corner = pivot + Vec2(cosine * d.x + sine * d.y, cosine * d.y - sine * d.x);
+            const Vec2 d = aspect.unsqueezed(corner - pivot);
+            const Vec2 now_at(cosine * d.x + sine * d.y, cosine * d.y - sine * d.x);
+            corner = pivot + aspect.squeezed(now_at);
         }
     }
     return out;
@@ -262,7 +270,7 @@ std::optional<std::array<Vec2, 4>> corners_around_region(Ctx& c) {
     auto box = box_around(matte->pixels, 0);
     if (!box) return std::nullopt;
     for (Vec2& corner : *box)
-        corner = ground(c, corner);
+        corner = plate_aspect(c).squeezed(ground(c, corner));
     return box;
 }
 
@@ -273,7 +281,8 @@ bool nudge_texture(Ctx& c) {
     const Vec2 by = arrow_step();
     if (by == Vec2{0, 0}) return false;
     follow_region(c, *region);
-    const Vec2 at = pivot_of(c), d = ground(c, at + by) - ground(c, at);
+    const Vec2 at = pivot_of(c);
+    const Vec2 d = plate_aspect(c).squeezed(ground(c, at + by) - ground(c, at));
     PlacementNumbers to = placement_on(region->placement, c.view.frame);
     to.x += static_cast<double>(d.x);
     to.y += static_cast<double>(d.y);

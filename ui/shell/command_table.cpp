@@ -127,6 +127,11 @@ void add_view_commands(std::vector<Command>& out) {
         c.state.viewer.zoom = 1;
     }));
     out.push_back(command(
+        "view.squeezed", "View", "Squeezed pixels", icons::kGrid, "",
+        [](Ctx& c) { c.state.viewer.squeezed = !c.state.viewer.squeezed; },
+        [](const Ctx& c) { return c.view.plate.pixel_aspect != 1; },
+        [](const Ctx& c) { return c.state.viewer.squeezed; }));
+    out.push_back(command(
         "view.plate", "View", "Show plate", icons::kImage, "T",
         [](Ctx& c) { compare(c, Compare::kPlate); }, {},
         [](const Ctx& c) { return c.state.viewer.compare == Compare::kPlate; }));

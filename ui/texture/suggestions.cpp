@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "ui/base/icons.h"
+#include "ui/canvas/handles.h"
 #include "ui/texture/parts.h"
 #include "ui/widgets/widgets.h"
 #include "ui/widgets/wrap.h"
@@ -93,7 +94,7 @@ void suggestion(Ctx& c, const TextureCard& card, const TextureSuggestion& why, I
     const ImTextureID id = shown ? c.pictures.texture(shown) : nullptr;
     if (id) {
         // Crops the centre to the card's shape.
-        const float pw = static_cast<float>(shown->size.width);
+        const float pw = plate_aspect(c).ratio() * static_cast<float>(shown->size.width);
         const float ph = static_cast<float>(shown->size.height);
         const float wide = size.x / size.y, is = pw / ph;
         const float u = is > wide ? 0.5f * (1 - wide / is) : 0;

@@ -210,10 +210,11 @@ void viewer(Ctx& c, ImVec2 size) {
     ViewerState& s = c.state.viewer;
     const bool two_wide = s.compare == Compare::kSideBySide, four = s.compare == Compare::kFourUp;
     const Size plate = c.view.plate.size;
-    if (!plate.empty() && s.aspect_of != c.view.plate.path) {
-        s.aspect_of = c.view.plate.path;
-        s.aspect = static_cast<float>(std::clamp(c.view.plate.pixel_aspect, 0.1, 10.0));
-    }
+    const double aspect = s.aspect_dragged.value_or(c.view.plate.pixel_aspect);
+    s.aspect =
+        s.squeezed
+            ? 1
+            : PixelAspect(std::clamp(aspect, PixelAspect::kLeast, PixelAspect::kMost)).ratio();
     if (s.fit && !plate.empty()) {
         const ImVec2 one(size.x * (two_wide || four ? 0.5f : 1.0f), size.y * (four ? 0.5f : 1.0f));
         const Size shown{static_cast<int>(static_cast<float>(plate.width) * s.aspect),

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/pixel_aspect.h"
 #include "ui/base/icons.h"
 #include "ui/parameters/parameters.h"
 #include "ui/widgets/sheet.h"
@@ -109,27 +110,48 @@ void settings_window(Ctx& c) {
     end_sheet(c);
 }
 
+// The shape of the plate's pixels: as its files say, or another one. The plate is opened anew when
+// it changes, so only the view follows a drag.
+void aspect_parameter(Ctx& c) {
+    const auto set = [&](ParameterValue value) {
+        c.emit(DoEdit{SetProjectParameter{"plate.pixel_aspect", std::move(value)}});
+    };
+    const std::optional<double>& given = c.view.project.plate.pixel_aspect;
+    bool automatic = !given;
+    if (checkbox(c, "Automatic pixel aspect", automatic,
+                 "Pixel width divided by height as the plate's files say"))
+        set(automatic ? ParameterValue{} : ParameterValue{c.view.plate.pixel_aspect});
+    if (!given) return;
+    std::optional<double>& dragged = c.state.viewer.aspect_dragged;
+    double aspect = dragged.value_or(*given);
+    const Change change =
+        slider(c,
+               {.label = "Pixel aspect",
+                .tip = "Pixel width divided by height: 2 for anamorphic. Textures, "
+                       "shapes and the brush act on the picture unsqueezed",
+                .min = 0.5,
+                .max = 2,
+                .standard = 1,
+                .typed_min = PixelAspect::kLeast,
+                .typed_max = PixelAspect::kMost},
+               aspect);
+    if (change == Change::kTrying) dragged = aspect;
+    if (change != Change::kDone) return;
+    dragged.reset();
+    set(aspect);
+}
+
 // The plate and the shot's colour settings.
 void shot_window(Ctx& c) {
     if (!c.state.shot_open) return;
     const Theme& t = c.theme;
-    begin_sheet(c, "Shot settings", {t.px(540), t.px(560)}, c.state.shot_open);
+    begin_sheet(c, "Shot settings", {t.px(540), t.px(600)}, c.state.shot_open);
     heading(c, "Plate");
     project_parameter(c, "plate.path", "Frames");
     project_parameter(c, "plate.layer", "Layer");
     space_parameter(c, "plate.space", "Colour space", "Auto (from file type)");
     project_parameter(c, "plate.fps", "Frame rate");
-    double aspect = static_cast<double>(c.state.viewer.aspect);
-    if (slider(c,
-               {.label = "Pixel aspect",
-                .tip = "Pixel width divided by height, for viewing only: 2 for anamorphic",
-                .min = 0.5,
-                .max = 2,
-                .standard = c.view.plate.pixel_aspect,
-                .typed_min = 0.1,
-                .typed_max = 10},
-               aspect) != Change::kNone)
-        c.state.viewer.aspect = static_cast<float>(aspect);
+    aspect_parameter(c);
     ImGui::Dummy({0, t.px(8)});
     heading(c, "Colour");
     space_parameter(c, "color.working_space", "Working space", "Linear");

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/shot/form_files.h"
+#include "engine/core/unsqueezed_image.h"
 #include "engine/form/drawn_form.h"
 
 namespace weft {
@@ -26,12 +27,16 @@ std::string FormCheck::problem(const Region& region) {
     if (!matte) return {};
     std::vector<FormGuide> guides = region.form.shape;
     guides.insert(guides.end(), region.form.strokes.begin(), region.form.strokes.end());
+    const PixelAspect aspect = use_.plate.aspect();
     Checked& known = checked_[region.id];
-    if (known.matte == matte && known.guides == guides && known.fov_deg == region.form.fov_deg)
+    if (known.matte == matte && known.guides == guides && known.fov_deg == region.form.fov_deg &&
+        known.aspect == aspect)
         return known.problem;
-    known = {std::move(guides), region.form.fov_deg, matte, {}};
-    const Status usable =
-        check_drawn_form(known.guides, {matte->size(), known.fov_deg}, matte->view());
+    known = {guides, region.form.fov_deg, aspect, matte, {}};
+    for (FormGuide& guide : guides)
+        guide = unsqueezed(std::move(guide), aspect);
+    const Matte seen = unsqueezed(*matte, aspect);
+    const Status usable = check_drawn_form(guides, {seen.size(), known.fov_deg}, seen);
     if (!usable) known.problem = usable.error().sentence();
     return known.problem;
 }

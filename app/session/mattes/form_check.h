@@ -34,6 +34,7 @@ class FormCheck {
     struct Checked {
         std::vector<FormGuide> guides;
         std::optional<double> fov_deg;
+        PixelAspect aspect;
         MattePtr matte;
         std::string problem;
     };

@@ -123,7 +123,9 @@ void MatteChanges::set_shape(const RotoShape& shape) {
     Change change{place,
                   Counts::kAll,
                   {"Shape", {}},
-                  changed_by([shape](const Matte& m) { return matte_of_shape(shape, m.size()); }),
+                  changed_by([shape, aspect = use_.target.aspect()](const Matte& m) {
+                      return matte_of_shape(shape, m.size(), aspect);
+                  }),
                   shape,
                   true,
                   Replaces::kShape};

@@ -71,12 +71,12 @@ Status write_surface_track(const Preview& preview, RegionId region, const RotoSh
 }
 
 Status write_shape_mattes(const KeyedShape& shape, const std::map<int, std::string>& paths,
-                          Size size) {
+                          Size size, PixelAspect aspect) {
     for (const auto& [frame, path] : paths) {
         std::error_code error;
         std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
-        WEFT_CHECK_OK(
-            write_matte(path, matte_of_shape(shape.keys.at(frame), size), WriteRule::own()));
+        const Matte matte = matte_of_shape(shape.keys.at(frame), size, aspect);
+        WEFT_CHECK_OK(write_matte(path, matte, WriteRule::own()));
     }
     return {};
 }
@@ -137,8 +137,9 @@ void MatteShapes::detach() {
     for (const auto& [frame, key] : shape.keys)
         paths[frame] = use_.folder.new_path(drawn->id, frame);
     use_.tasks.start_for_document([this, shape, paths, size = use_.plate.reader()->size(),
-                                   id = drawn->id, layer]() -> DocumentTasks::Finish {
-        const Status written = write_shape_mattes(shape, paths, size);
+                                   aspect = use_.plate.aspect(), id = drawn->id,
+                                   layer]() -> DocumentTasks::Finish {
+        const Status written = write_shape_mattes(shape, paths, size, aspect);
         return [this, shape, paths, written, id, layer] {
             if (!written) return use_.notices.add(NoticeKind::kError, written.error().text());
             const Region* now = region_by_id(use_.document.project(), id);

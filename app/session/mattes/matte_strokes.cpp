@@ -36,6 +36,7 @@ void MatteStrokes::begin(const BeginStroke& action) {
     if (base.state == PaintBase::State::kUnreached) return use_.target.refuse(base, place);
     use_.playback.stop();
     Brush brush = action.brush;
+    brush.aspect = use_.target.aspect();
     if (confirms) {
         place.confirmed = true;
         brush.opacity = 1;

@@ -66,6 +66,7 @@ class PaintTarget {
         return {use_.selection.region, use_.selection.layer, use_.playback.frame()};
     }
     [[nodiscard]] Size size() const { return use_.plate.reader()->size(); }
+    [[nodiscard]] PixelAspect aspect() const { return use_.plate.aspect(); }
     /// It stands still, and can be painted as far as is known without a word.
     [[nodiscard]] bool is_ready() const;
     [[nodiscard]] bool may_paint() const;

@@ -151,17 +151,16 @@ void TextureChoices::use_larger_original(RegionId id) {
     });
 }
 
-void TextureChoices::scale_by_line(const ScaleByLine& action, RegionId id) {
+void TextureChoices::scale_by_line(Vec2 line, double count, RegionId id) {
     const Region* target = region(id);
-    if (!target || target->texture.sample.empty() || action.count <= 0) {
+    if (!target || target->texture.sample.empty() || count <= 0) {
         use_.notices.add(NoticeKind::kWarning, "Choose a texture to synthesize first.");
         return;
     }
-    const Vec2 line = action.to - action.from;
     const double length = std::hypot(static_cast<double>(line.x), static_cast<double>(line.y));
     use_.tasks.start_for_document(
         [this, path = resolve_path(use_.document.folder(), target->texture.sample), line, length,
-         count = action.count, id]() -> DocumentTasks::Finish {
+         count, id]() -> DocumentTasks::Finish {
             const auto pitch = texture_pitch(path, line);
             return [this, pitch, length, count, id] {
                 if (!pitch) return use_.notices.add(NoticeKind::kWarning, pitch.error().text());

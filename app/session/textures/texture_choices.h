@@ -35,8 +35,9 @@ class TextureChoices {
     void apply_all(const ApplyTextures& action);
     /// The larger picture that the region's sample was cut from; its size on the plate stays.
     void use_larger_original(RegionId region);
-    /// Scales the region's texture by the known size of its bricks or tiles.
-    void scale_by_line(const ScaleByLine& action, RegionId region);
+    /// Scales the region's texture by the known size of its bricks or tiles: `count` of them lie
+    /// along a line of the plate, unsqueezed.
+    void scale_by_line(Vec2 line, double count, RegionId region);
 
     /// A texture of the library is being copied.
     [[nodiscard]] bool busy() const { return fetching_.has_value(); }

@@ -46,7 +46,8 @@ bool ShownPlate::take() {
         return false;
     }
     reader_ = opened->reader;
-    drawn_ = std::make_shared<const DrawnMattes>(reader_->size(), reader_->frames().front());
+    drawn_ =
+        std::make_shared<const DrawnMattes>(reader_->size(), reader_->frames().front(), aspect());
     player_ = std::make_shared<PlatePlayer>(reader_, opened->srgb, opened->linear, budget_bytes_);
     view_.space = opened->space;
     playback_.open(reader_->frames());

@@ -35,6 +35,10 @@ class ShownPlate {
     [[nodiscard]] const std::shared_ptr<const FrameReader>& reader() const { return reader_; }
     /// The mattes of its shapes; null likewise.
     [[nodiscard]] const std::shared_ptr<const DrawnMattes>& drawn() const { return drawn_; }
+    /// Of its pixels; square without a plate.
+    [[nodiscard]] PixelAspect aspect() const {
+        return reader_ ? PixelAspect(reader_->pixel_aspect()) : PixelAspect();
+    }
     /// The picture that is shown; null: none.
     [[nodiscard]] const PicturePtr& picture() const { return picture_; }
     /// By index into the reader's frames, as far as known.
