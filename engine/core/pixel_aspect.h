@@ -17,8 +17,10 @@ class PixelAspect {
     static constexpr double kLeast = 0.1, kMost = 10;  ///< Of what can be set.
 
     PixelAspect() = default;
-    /// `ratio`: above 0.
-    explicit PixelAspect(double ratio) : ratio_(static_cast<float>(ratio)) {}
+    /// `ratio`: above 0. Within half a percent of 1 it is 1: densities of stills and the aspects of
+    /// movies are rounded.
+    explicit PixelAspect(double ratio)
+        : ratio_(std::abs(ratio - 1) < 0.005 ? 1 : static_cast<float>(ratio)) {}
 
     [[nodiscard]] float ratio() const { return ratio_; }
     [[nodiscard]] bool square() const { return ratio_ == 1; }

@@ -57,5 +57,11 @@ TEST(UnsqueezedImage, MattesStayWholeInsideAndTheUnknownStaysUnknown) {
     EXPECT_EQ(shown.at(8, 0), 1);
 }
 
+// A photograph of 2835 by 2834 dots a metre.
+TEST(PixelAspect, RoundedSquaresAreSquare) {
+    EXPECT_TRUE(PixelAspect(2834.0 / 2835).square());
+    EXPECT_FALSE(PixelAspect(16.0 / 15).square());
+}
+
 }  // namespace
 }  // namespace weft
