@@ -105,13 +105,21 @@ Vec2i CoveredSurface::place_before(int x, int y) const {
     return nearest_pixel(Vec2(x, y) + Vec2(d[0], d[1]));
 }
 
-float CoveredSurface::odds(int x, int y, const std::uint8_t* color) const {
-    if (behind_.at(x, y) == 0) return 0;
+ImageF1 CoveredSurface::odds(ViewU8x3 frame) const {
     constexpr float kNoise_levels = 3, kSpread_levels = 160, kMost = 3;
-    const float difference = plate_.difference(color, x, y);
-    if (difference < 0) return 0;
-    return std::clamp(std::log(kSpread_levels / (2 * kNoise_levels)) - difference / kNoise_levels,
-                      -kMost, kMost);
+    const float most = std::log(kSpread_levels / (2 * kNoise_levels));
+    ImageF1 out(behind_.size());
+    parallel_rows(out.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < out.width(); ++x) {
+                if (behind_.at(x, y) == 0) continue;
+                const float difference = plate_.difference(frame.pixel(x, y), x, y);
+                if (difference < 0) continue;
+                out.at(x, y) = std::clamp(most - difference / kNoise_levels, -kMost, kMost);
+            }
+        }
+    });
+    return out;
 }
 
 }  // namespace weft

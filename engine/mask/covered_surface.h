@@ -23,9 +23,9 @@ class CoveredSurface {
     void correct(ViewU8x1 wrong, ViewU8x1 inside);
     /// Where the surface that pixel (x, y) of that frame shows or hides was on the frame before.
     [[nodiscard]] Vec2i place_before(int x, int y) const;
-    /// Log odds that pixel (x, y) of that frame, `color`, is the surface, behind which something
-    /// was; 0 where nothing was, or what is seen may be another thing of the surface's colours.
-    [[nodiscard]] float odds(int x, int y, const std::uint8_t* color) const;
+    /// Log odds, −3 to 3, that what the pixels of `frame`, that frame's, show is the surface again;
+    /// 0 where nothing hid it, or what it looked like is not known. Parallel over rows.
+    [[nodiscard]] ImageF1 odds(ViewU8x3 frame) const;
 
   private:
     ImageF2 motion_;  // prev_from_cur of what is hidden, px

@@ -148,12 +148,8 @@ MatteEstimate MatteWalker::advance(ViewU8x3 shown, const FlowField& measured, Vi
     ImageF2 surface_motion;
     s.plate.move(background);
     s.hidden.move(background);
-    if (area.empty()) {  // the surface has left the frame
-        s.confidence = 0;
-        s.confirmed.clear();
-        s.departure.advance({s.phi, prev_from_cur, {}, {}, {}, {}, s.scale.unit_px()});
-        s.sides = {};
-        s.newcomers = {};
+    if (area.empty()) {
+        s.leave_frame(prev_from_cur);
     } else {
         const ViewU8x3 part = frame.crop(area);
         TransportedShape shape =

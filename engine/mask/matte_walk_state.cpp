@@ -82,6 +82,15 @@ RefinedBoundary MatteWalker::State::find_boundary(ViewU8x3 part, const Transport
     return refine_boundary(part, shape.phi, colors, matched, wide, scale, options.steadiness);
 }
 
+// Nothing of the surface is on the frame.
+void MatteWalker::State::leave_frame(const FlowField& prev_from_cur) {
+    confidence = 0;
+    confirmed.clear();
+    departure.advance({phi, prev_from_cur, {}, {}, {}, {}, scale.unit_px()});
+    sides = {};
+    newcomers = {};
+}
+
 // Hair, fur and motion blur stay where they were on the keyframe, warped along the motion.
 Matte MatteWalker::State::soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                  ViewF2 prev_from_cur, const Recti& area) const {

@@ -61,6 +61,7 @@ struct MatteWalker::State {
     bool at_key = true;                     ///< No step has been made.
     std::vector<Matte> late = {};           ///< Of the frames before, by blocks.
 
+    void leave_frame(const FlowField& prev_from_cur);
     [[nodiscard]] Matte soften(ViewU8x3 part, const RefinedBoundary& found, ViewF2 key_from_cur,
                                ViewF2 prev_from_cur, const Recti& area) const;
     void take_back(ViewU8x3 now, const FlowField& prev_from_cur, ImageF1& distance, Matte& matte);

@@ -44,7 +44,7 @@ bool goes_along(const GroundStep& step, int x, int y) {
 
 // The colours' log odds, summed over the surroundings that are not known either: a sheet's fold
 // or stripe alone may be anybody's.
-cv::Mat odds_around(const GroundStep& step, const Matte& known, const CoveredSurface& covered,
+cv::Mat odds_around(const GroundStep& step, const Matte& known, const ImageF1& own,
                     const SurfacePalette& palette) {
     constexpr float kReach_px = 4;
     cv::Mat sums(known.height(), known.width(), CV_32F, cv::Scalar::all(0));
@@ -53,8 +53,7 @@ cv::Mat odds_around(const GroundStep& step, const Matte& known, const CoveredSur
             auto* sum = sums.ptr<float>(y);
             for (int x = 0; x < known.width(); ++x) {
                 if (step.phi.row(y)[x] > 0 || known.at(x, y) != 0) continue;
-                const std::uint8_t* color = step.frame.pixel(x, y);
-                sum[x] = std::max(palette.odds(color), covered.odds(x, y, color));
+                sum[x] = std::max(palette.odds(step.frame.pixel(x, y)), own.at(x, y));
             }
         }
     });
@@ -151,20 +150,22 @@ void UnseenGround::follow(const GroundStep& step, const SurfacePalette& palette)
             }
         }
     });
-    const cv::Mat odds = odds_around(step, known, covered_, palette);
+    own_ = covered_.odds(step.frame);
+    const cv::Mat odds = odds_around(step, known, own_, palette);
     parallel_rows(known.height(), 16, [&](int y0, int y1) {
         for (int y = y0; y < y1; ++y) {
             for (int x = 0; x < known.width(); ++x) {
                 if (step.phi.row(y)[x] > 0 || known.at(x, y) != 0) continue;
-                const bool goes = goes_along(step, x, y);
-                const bool sure = covered_.odds(x, y, step.frame.pixel(x, y)) > 0 &&
-                                  (goes || step.flow.valid.row(y)[x] == 0);
+                const bool likely = odds.at<float>(y, x) > 0;
+                const bool goes = likely && goes_along(step, x, y);
+                const bool sure =
+                    likely && (goes || step.flow.valid.row(y)[x] == 0) && own_.at(x, y) > 0;
                 const Vec2i from = sure ? covered_.place_before(x, y) : source(x, y);
                 const bool seen = sure ? frame.contains(from.x, from.y) : was_seen({x, y}, from);
                 const int so_far = seen ? waited_.at(from.x, from.y) : 0;
-                const bool is_like = odds.at<float>(y, x) > 0 && (sure || goes);
-                waited.at(x, y) = static_cast<std::uint8_t>(
-                    std::clamp(so_far + (is_like ? (sure ? kSure : 1) : -2), 0, int{kMostWaited}));
+                const int more = sure ? kSure : goes ? 1 : -2;
+                waited.at(x, y) =
+                    static_cast<std::uint8_t>(std::clamp(so_far + more, 0, int{kMostWaited}));
             }
         }
     });
@@ -211,8 +212,7 @@ Matte UnseenGround::advance(const GroundStep& step, const SurfacePalette& palett
     for (int y = 0; y < own.height(); ++y) {
         for (int x = 0; x < own.width(); ++x) {
             if (waited_.at(x, y) < kRipe) continue;
-            const bool sure = covered_.odds(x, y, step.frame.pixel(x, y)) > 0;
-            (sure ? own : like).at(x, y) = 255;
+            (own_.at(x, y) > 0 ? own : like).at(x, y) = 255;
         }
     }
     own = joined(step, std::move(own), {});

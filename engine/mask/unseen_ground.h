@@ -36,6 +36,7 @@ class UnseenGround {
 
     Matte known_;  // 255: was outside on the keyframe, and has been since
     CoveredSurface covered_;
+    ImageF1 own_;   // covered_'s log odds on the last frame
     Matte waited_;  // frames for which something has looked like the surface
 };
 

@@ -49,17 +49,17 @@ struct Passage {
         }
         const Matte disc = scene.matte(kPasses);
         const ImageF1 last = distance(kPasses);
+        const ImageF1 log_odds = surface.odds(shown);
         Odds out;
         double again = 0, covered = 0, never = 0;
         for (int y = 0; y < disc.height(); ++y) {
             for (int x = 0; x < disc.width(); ++x) {
-                const float log_odds = surface.odds(x, y, shown.pixel(x, y));
                 if (last.at(x, y) > 0)
-                    never += 1, out.never += log_odds != 0 ? 1 : 0;
+                    never += 1, out.never += log_odds.at(x, y) != 0 ? 1 : 0;
                 else if (disc.at(x, y) > 127)
-                    covered += 1, out.covered += log_odds < 0 ? 1 : 0;
+                    covered += 1, out.covered += log_odds.at(x, y) < 0 ? 1 : 0;
                 else if (disc.at(x, y) == 0 && last.at(x, y) < -3)
-                    again += 1, out.again += log_odds > 0 ? 1 : 0;
+                    again += 1, out.again += log_odds.at(x, y) > 0 ? 1 : 0;
             }
         }
         return {out.again / again, out.covered / covered, out.never / never};
@@ -100,7 +100,7 @@ TEST(CoveredSurface, OnlyWhatWasTheSurfacesOwnForSomeFramesCounts) {
             surface.advance({still_frame, still_frame, rests, parting, still, rect_of(size),
                              t == 0 ? nothing : all, leaves ? nothing : all, 1.0f});
         }
-        return surface.odds(80, 60, still_frame.pixel(80, 60));
+        return surface.odds(still_frame).at(80, 60);
     };
     EXPECT_EQ(odds_after(3), 0);
     EXPECT_GT(odds_after(12), 0);
@@ -114,7 +114,7 @@ TEST(CoveredSurface, ASurfaceThatHasLeftThePictureIsNoError) {
     const FlowField rests(scene.size);
     const Matte parting(scene.size);
     surface.advance({frame, frame, rests, parting, {}, {}, inside, nothing, 1.0f});
-    EXPECT_EQ(surface.odds(80, 60, frame.pixel(80, 60)), 0);
+    EXPECT_EQ(surface.odds(frame).at(80, 60), 0);
 }
 
 }  // namespace
