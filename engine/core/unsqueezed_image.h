@@ -27,7 +27,7 @@ template <class T, int C>
                 const auto low = static_cast<float>(a[c]), high = static_cast<float>(b[c]);
                 const float value = low + share * (high - low);
                 if constexpr (std::is_integral_v<T>)
-                    out.pixel(x, y)[c] = static_cast<T>(value + 0.5f);
+                    out.pixel(x, y)[c] = static_cast<T>(std::lround(value));
                 else
                     out.pixel(x, y)[c] = value;
             }
