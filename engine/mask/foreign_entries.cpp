@@ -21,10 +21,13 @@ constexpr float kForeignEntry = 1.5f;  // log odds by which what enters is farth
 constexpr float kRarestShare = 0.1f;   // of the surface: colours as foreign as these are its own
 constexpr float kLeastEntry_px = 30;   // square
 constexpr float kWasOutside_px = 2;
+constexpr std::ptrdiff_t kMostOfSurface = 3;  // a third: more than that is a flash or a black frame
 
 bool contains(const Recti& box, Vec2i p) {
     return box.contains(p.x, p.y);
 }
+
+constexpr std::uint8_t kFound = 255;
 
 // What a pixel would be by the surface's motion, and whether it has a past there.
 enum EntryKind : std::uint8_t { kElse = 0, kSurface = 1, kNoPast = 2 };
@@ -82,7 +85,7 @@ Matte foreign_pixels(const EntriesInput& in, const Matte& kinds) {
                 const auto& e = entering.at<cv::Vec2f>(y, x);
                 const auto& b = beside.at<cv::Vec2f>(y, x);
                 const float usual = b[1] > 0 ? std::min(rarest, b[0] / b[1]) : rarest;
-                if (e[0] / e[1] < usual - kForeignEntry) out.at(x, y) = 255;
+                if (e[0] / e[1] < usual - kForeignEntry) out.at(x, y) = kFound;
             }
         }
     });
@@ -117,7 +120,7 @@ Matte joined_to_outside(Matte& found, const Matte& kinds, const EntriesInput& in
             const auto area_px = static_cast<float>(stats.at<int>(label, cv::CC_STAT_AREA));
             if (joined[static_cast<std::size_t>(label)] &&
                 area_px >= kLeastEntry_px * in.unit_px * in.unit_px)
-                out.at(x, y) = 255;
+                out.at(x, y) = kFound;
         }
     }
     return out;
@@ -128,6 +131,11 @@ Matte joined_to_outside(Matte& found, const Matte& kinds, const EntriesInput& in
 Matte foreign_entries(const EntriesInput& in) {
     const Matte kinds = kinds_of(in);
     Matte found = foreign_pixels(in, kinds);
+    const std::uint8_t* codes = kinds.data();
+    const auto other = std::count(codes, codes + kinds.size_bytes(), std::uint8_t{kElse});
+    const auto surface = static_cast<std::ptrdiff_t>(kinds.size_bytes()) - other;
+    const auto foreign = std::count(found.data(), found.data() + found.size_bytes(), kFound);
+    if (kMostOfSurface * foreign > surface) return Matte(kinds.size());
     return joined_to_outside(found, kinds, in);
 }
 

@@ -23,8 +23,9 @@ struct EntriesInput {
 
 /// 255 where the surface would be by its motion, but the picture shows colours of something else,
 /// far more than the surface's own are around it; where that was on the frame before is not known,
-/// or was outside; and it is joined to what is outside or to the picture's border. Of the area's
-/// size. Parallel over rows; deterministic.
+/// or was outside; and it is joined to what is outside or to the picture's border. Nothing if that
+/// is more than a third of the surface (a flash, a black frame). Of the area's size. Parallel over
+/// rows; deterministic.
 [[nodiscard]] Matte foreign_entries(const EntriesInput& in);
 
 }  // namespace weft

@@ -74,6 +74,11 @@ TEST(ForeignEntries, WhatWasThereBeforeDoesNotEnter) {
     EXPECT_EQ(found({kArm, false, true}), 0);
 }
 
+// A flash or a black frame tells nothing.
+TEST(ForeignEntries, WhatCoversMostOfTheSurfaceAtOnceDoesNotEnter) {
+    EXPECT_EQ(found({{10, 40, 110, 90}}), 0);
+}
+
 // A print or a button, where motion is hard to measure.
 TEST(ForeignEntries, WhatLiesInTheMiddleDoesNotEnter) {
     EXPECT_EQ(found({{50, 55, 70, 75}}), 0);

@@ -95,9 +95,9 @@ TEST(MatteWalker, ConfidenceFallsFasterUnderCorruptedMotion) {
         EXPECT_LE(good[t].confidence, good[t - 1].confidence);
     }
     EXPECT_GT(good.back().confidence, bad.back().confidence + 0.1f);
-    // The disc's colours make up for it here.
-    EXPECT_GT(overlap(bad.back().matte, scene.matte(8)), 0.98);
-    EXPECT_GT(overlap(good.back().matte, scene.matte(8)), 0.98);
+    // The disc's colours make up for it: 0.97 before what has no past was judged by them.
+    EXPECT_GT(overlap(bad.back().matte, scene.matte(8)), 0.99);
+    EXPECT_GT(overlap(good.back().matte, scene.matte(8)), 0.99);
 }
 
 // Fresh noise in every frame: the held boundary wavers less against the true one, and is no further

@@ -102,5 +102,21 @@ TEST(PassingHand, IsCutOutAndGivesTheJacketBack) {
     }
 }
 
+// Though black was seen outside the jacket.
+TEST(PassingHand, ABlackFrameLosesNothing) {
+    const PassingHand clip;
+    ImageU8x3 first = clip.frame(0);
+    for (int y = 0; y < 50; ++y)
+        std::fill(first.row(y), first.row(y) + 150, std::uint8_t{3});  // a dark curtain
+    MatteWalker walker(first, clip.jacket(0));
+    FlowField lost(PassingHand::kSize), rests(PassingHand::kSize);
+    std::fill(lost.valid.data(), lost.valid.data() + lost.valid.size_bytes(), std::uint8_t{0});
+    const ImageU8x3 black(PassingHand::kSize);
+    EXPECT_GT(test::overlap(walker.advance(first, rests).matte, clip.jacket(0)), 0.985);
+    const Matte dark = walker.advance(black, lost).matte;
+    EXPECT_GT(test::overlap(dark, clip.jacket(0)), 0.9);
+    EXPECT_GT(test::overlap(walker.advance(first, lost).matte, clip.jacket(0)), 0.87);
+}
+
 }  // namespace
 }  // namespace weft
