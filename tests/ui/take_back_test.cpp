@@ -140,6 +140,28 @@ TEST_F(TakeBack, AnUndoneScribbleIsNoLongerCounted) {
     EXPECT_THAT(shell->state().scribbles.lines, SizeIs(2));
 }
 
+TEST_F(TakeBack, EscInADialogLeavesWhatIsDrawnBehindIt) {
+    go("Mask", Tool::kScribble);
+    draw(on(100, 60), on(120, 80));
+    have_matte();
+    shell->ask_to_leave();
+    robot->frames(2);
+    robot->key("Esc");
+    robot->frames(2);
+    ASSERT_FALSE(shell->state().leave_asked);
+    EXPECT_THAT(shell->state().scribbles.lines, SizeIs(1));
+    robot->key("Esc");
+    EXPECT_THAT(shell->state().scribbles.lines, IsEmpty()) << "that one was for the lines";
+    go("Mask", Tool::kPolygon);
+    click_at(on(50, 50));
+    click_at(on(120, 50));
+    ASSERT_TRUE(robot->click("Top/Edit"));
+    robot->key("Esc");
+    EXPECT_THAT(shell->state().brush.outline, SizeIs(2)) << "it closed the menu";
+    robot->key("Esc");
+    EXPECT_THAT(shell->state().brush.outline, IsEmpty());
+}
+
 TEST_F(TakeBack, ScribblesStayOnTheirFrameUntilItsMatteIsPaintedOtherwise) {
     go("Mask", Tool::kScribble);
     view.history_position = 4;

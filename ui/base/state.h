@@ -309,6 +309,7 @@ struct UiState {
     bool palette_open = false, shortcuts_open = false, settings_open = false, history_open = false;
     bool shot_open = false;
     bool about_open = false;
+    bool keys_taken = false;   ///< A dialog or menu in front of the picture takes the keys.
     std::string open_menu;     ///< Name of the open menu; empty: none.
     ImGuiID closed_popup = 0;  ///< Id of the pop-up that the last press of the mouse closed.
     std::string palette_text;

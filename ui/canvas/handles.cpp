@@ -76,11 +76,15 @@ bool any_handle_held(const Ctx& c) {
     return !c.state.handle_held.empty();
 }
 
+bool keys_for_picture(const Ctx& c) {
+    return !c.state.keys_taken && !ImGui::GetIO().WantTextInput;
+}
+
 bool take_back_drag(Ctx& c) {
     UiState& s = c.state;
     const bool transforms = s.transform.drag != TransformState::Drag::kNone;
     if (!any_handle_held(c) && !transforms && !s.warp.box_from && !s.brush.lassoing) return false;
-    if (ImGui::GetIO().WantTextInput || !ImGui::IsKeyPressed(256)) return false;
+    if (!keys_for_picture(c) || !ImGui::IsKeyPressed(256)) return false;
     s.handle_held.clear();
     s.transform.drag = TransformState::Drag::kNone;
     s.warp.before.reset();

@@ -22,6 +22,9 @@ Grip handle(Ctx& c, const ViewMap& map, const std::string& id, Vec2& at, bool ho
 /// Returns true if something was.
 bool take_back_drag(Ctx& c);
 
+/// Whether a key is for what is drawn on the picture: no text is typed, and no dialog or menu is in
+/// front.
+[[nodiscard]] bool keys_for_picture(const Ctx& c);
 /// Returns true while the modifier that takes away is held: Ctrl, or Alt, which many window
 /// managers keep for moving windows.
 [[nodiscard]] bool subtracts();

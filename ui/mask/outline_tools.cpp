@@ -66,7 +66,7 @@ void polygon_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
         if (b.outline.empty()) b.outline_subtracts = subtracts();
         b.outline.push_back(at);
     }
-    if (!b.outline.empty() && !ImGui::GetIO().WantTextInput) {
+    if (!b.outline.empty() && keys_for_picture(c)) {
         if (ImGui::IsKeyPressed(257)) finish_outline(c);
         if (ImGui::IsKeyPressed(256)) b.outline.clear();
         if (ImGui::IsKeyPressed(259) && !b.outline.empty()) b.outline.pop_back();

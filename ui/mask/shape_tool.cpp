@@ -33,7 +33,7 @@ void finish_drawing(Ctx& c) {
 void draw_new(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     RotoShape& shape = c.state.shape;
     const Vec2 mouse = map.to_plate(ImGui::GetIO().MousePos);
-    if (!ImGui::GetIO().WantTextInput) {
+    if (keys_for_picture(c)) {
         if (ImGui::IsKeyPressed(257)) return finish_drawing(c);
         if (ImGui::IsKeyPressed(259) && !shape.points.empty()) shape.points.pop_back();
         if (ImGui::IsKeyPressed(256) || shape.points.empty()) {
@@ -124,7 +124,7 @@ bool edit_points(Ctx& c, const ViewMap& map, bool hovered, bool& over) {
 
 void shape_tool(Ctx& c, const ViewMap& map, bool hovered, bool active) {
     UiState& s = c.state;
-    if (!c.view.selected_region()) return;
+    if (!c.view.selected_region() && !c.view.project.regions.empty()) return;
     if (s.shape_drawing) return draw_new(c, map, hovered, active);
     if (!any_handle_held(c) && !c.view.matte_busy)
         s.shape = c.view.shape ? *c.view.shape : RotoShape{};
@@ -225,13 +225,13 @@ void scribble_tool(Ctx& c, const ViewMap& map, bool active) {
         s.drawing = ImGui::IsMouseDown(0);
         if (s.drawing && s.lines.back().line.size() > before)
             c.emit(TryScribble{std::move(all)});
-        else if (!s.drawing && !all.keep.empty())
+        else if (!s.drawing)
             c.emit(std::move(all));
     } else {
         take_undone_away(s, c.view);
         take_painted_over_away(s, c.view);
     }
-    if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(256)) {
+    if (keys_for_picture(c) && ImGui::IsKeyPressed(256)) {
         forget_scribbles(s);
         s.drawing = false;
         c.emit(TryScribble{});

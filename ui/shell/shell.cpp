@@ -144,6 +144,8 @@ std::vector<Action> Shell::draw(const SessionView& view) {
                        state_.browser.purpose != BrowserState::Purpose::kNone;
     part("commands");
     const bool escaped = close_popups(state_);
+    state_.keys_taken = sheet || escaped || state_.settings_open || state_.history_open ||
+                        state_.shot_open || state_.about_open || state_.adding.open;
     if (!sheet && !escaped && !ui::keys_area_shortcut(c) && !ui::nudge_texture(c) &&
         !ui::nudge_warp(c))
         commands_.dispatch(c);
