@@ -84,11 +84,14 @@ RenderEstimate estimate_render(const EstimateInputs& in) {
                             (in.mattes_painted ? cost.matte : 0) +
                             cost.region * static_cast<double>(in.regions);
     const double cores = std::pow(std::max(1u, in.threads) / kMeasuredOn, kScaling);
-    const double work = 1e-6 * pixels *
-                        (cost.render * static_cast<double>(in.frames) +
-                         analysis * static_cast<double>(in.analysed));
+    const auto taking_s = [&](double cost_us, std::size_t frames) {
+        return 1e-6 * pixels * cost_us * static_cast<double>(frames) / cores /
+               std::max(in.speed, 1e-3);
+    };
+    const double measured_s = in.analysed > 0 ? in.analysis_s : 0;
     RenderEstimate out;
-    out.seconds = (kStart_s + work / cores) / std::max(in.speed, 1e-3);
+    out.seconds = kStart_s / std::max(in.speed, 1e-3) + taking_s(cost.render, in.frames) +
+                  std::max(taking_s(analysis, in.analysed), measured_s);
     out.memory_bytes =
         render_memory_bytes(in.size, std::min<std::size_t>(in.threads, in.frames), in.layers) +
         kRegionBytes * static_cast<std::int64_t>(in.regions) +

@@ -28,6 +28,8 @@ struct EstimateInputs {
     bool layers = false;         ///< EXR layers are written too.
     unsigned threads = 2;
     double speed = 1;  ///< Speed relative to the measured machine, as calibrated_speed().
+    /// What the analysis will take by a run of it that is on its way, s; 0: none is.
+    double analysis_s = 0;
 };
 
 /// Number of frames that the analysis for frames `first` to `last` covers, including references,

@@ -33,6 +33,19 @@ TEST(RenderEstimate, MoreWorkTakesLongerAndMoreCoresLess) {
     EXPECT_NEAR(with([](EstimateInputs& in) { in.speed = 2; }), seconds / 2, 1e-9);
 }
 
+// A machine that has other things to do takes longer than ever before.
+TEST(RenderEstimate, GoesByAnAnalysisThatIsOnItsWay) {
+    EstimateInputs in = clip();
+    const double seconds = estimate_render(in).seconds;
+    in.analysis_s = 0.01;
+    EXPECT_EQ(estimate_render(in).seconds, seconds) << "what it began with does not count";
+    in.analysis_s = 400;
+    EXPECT_GT(estimate_render(in).seconds, 400);
+    EXPECT_LT(estimate_render(in).seconds, 400 + seconds);
+    in.analysed = 0;
+    EXPECT_LT(estimate_render(in).seconds, seconds) << "it is done";
+}
+
 TEST(RenderEstimate, MemoryDoesNotGrowWithTheShotAndDiskDoes) {
     EstimateInputs in = clip();
     const RenderEstimate once = estimate_render(in);

@@ -44,6 +44,30 @@ TEST_F(QueuePage, FailuresComeFirstThenWhatRunsThenWhatWaitsInItsOrder) {
     EXPECT_EQ(robot->find("Job 1/Earlier"), nullptr) << "it is being rendered";
 }
 
+TEST_F(QueuePage, ARenderNamesItsReviewMovie) {
+    view.jobs[0].output = "/shots/wall_render_v001/wall_v001.####.png";
+    view.jobs[0].movie = "/shots/wall_render_v001.mp4";
+    show();
+    EXPECT_NE(robot->find("Job 1/Files: /shots/wall_render_v001/wall_v001.####.png  ·  "
+                          "wall_render_v001.mp4"),
+              nullptr);
+}
+
+// The estimate never promises less than the analysis beside it says.
+TEST_F(QueuePage, TheEstimateGoesByTheAnalysisThatIsOnItsWay) {
+    set_workspace(shell->state(), Workspace::kJobs);
+    view.preview.analysing = true;
+    view.preview.done = 10;
+    view.preview.total = 100;
+    view.preview.seconds_left = 900;
+    shell->state().output.output = "/tmp/nowhere/a.####.png";
+    robot->frames(3);
+    clear();
+    ASSERT_TRUE(robot->click("Export/Render frames"));
+    ASSERT_THAT(emitted<SubmitJob>(), SizeIs(1));
+    EXPECT_GT(emitted<SubmitJob>()[0].estimated_s, 900);
+}
+
 TEST_F(QueuePage, AnErrorOfAnOutputStaysOnThePage) {
     add(JobState::kFailed);
     view.jobs[1].problem.setting = "run.overwrite";

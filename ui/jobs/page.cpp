@@ -1,6 +1,7 @@
 // The Jobs page: a render's settings, and the queue.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "app/render/render_estimate.h"
 #include "ui/base/icons.h"
@@ -79,6 +80,13 @@ void job_buttons(Ctx& c, const JobView& job, ImVec2 right_top) {
     }
 }
 
+// Where the frames go, and the review movie, which lies beside their folder.
+std::string files_of(const JobView& job) {
+    return job.movie.empty()
+               ? job.output
+               : job.output + "  ·  " + std::filesystem::path(job.movie).filename().string();
+}
+
 void job_row(Ctx& c, const JobView& job) {
     const Theme& t = c.theme;
     ImGui::PushID(job.id);
@@ -114,7 +122,8 @@ void job_row(Ctx& c, const JobView& job) {
             fitted(job.label, right - t.px(200) - x).c_str(), 0);
     ImGui::PushFont(t.small);
     text_in(list, t.small, {x, at.y + t.px(29)}, {right, at.y + t.px(45)}, t.quiet,
-            fitted(job.output, right - x, true).c_str(), 0);
+            fitted(files_of(job), right - x, true).c_str(), 0);
+    c.note("Files: " + files_of(job), {x, at.y + t.px(29)}, {right, at.y + t.px(45)});
     const float part =
         job.total > 0 ? static_cast<float>(job.done) / static_cast<float>(job.total) : 0;
     const float bar_y = at.y + t.px(50);

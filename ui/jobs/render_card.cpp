@@ -56,6 +56,10 @@ std::vector<int> frames_of(const Ctx& c) {
     return out;
 }
 
+std::string movie_of(const ExportState& e) {
+    return folder_of(e.output) + ".mp4";
+}
+
 void set_extension(std::string& path, const char* extension) {
     const std::size_t dot = path.find_last_of('.');
     const std::size_t slash = path.find_last_of('/');
@@ -80,6 +84,16 @@ void version_up(std::string& path) {
         path.replace(found, before.size(), "_v" + number);
 }
 
+// What the analysis of so many frames will take at the pace of the preview's, which is of another
+// quality or has done a part of it already; 0: its pace is not known.
+double analysis_left_s(const SessionView& v, std::size_t frames, bool same_quality) {
+    const PreviewView& now = v.preview;
+    if (!now.analysing || now.seconds_left <= 0 || now.done >= now.total) return 0;
+    const double whole = same_quality ? 1 : static_cast<double>(now.total) / (now.total - now.done);
+    const double share = static_cast<double>(frames) / static_cast<double>(v.plate.frames.size());
+    return now.seconds_left * whole * std::min(1.0, share);
+}
+
 RenderEstimate estimate_of(const Ctx& c, const std::vector<int>& frames, Quality quality) {
     const SessionView& v = c.view;
     EstimateInputs in;
@@ -97,6 +111,7 @@ RenderEstimate estimate_of(const Ctx& c, const std::vector<int>& frames, Quality
                       ? 0
                       : analysed_frames(v.project, frames.front(), frames.back(),
                                         {v.plate.frames.front(), v.plate.frames.back() + 1});
+    in.analysis_s = analysis_left_s(v, in.analysed, v.preview_quality == quality);
     return estimate_render(in);
 }
 
@@ -236,7 +251,8 @@ void file_choice(Ctx& c) {
     ImGui::SameLine(0, t.px(4));
     if (icon_button(c, icons::kArrowUp, "Version up", false, nullptr, true, t.row))
         version_up(e.output);
-    checkbox(c, "Write review movie", e.with_movie, "An .mp4 of the result for review");
+    checkbox(c, "Write review movie", e.with_movie,
+             ("An .mp4 of the result for review: " + movie_of(e)).c_str());
     layer_choice(c);
     ImGui::Dummy({0, t.px(4)});
     quiet(c, "If files exist");
@@ -281,7 +297,7 @@ SubmitJob job_of(const ExportState& e, const std::vector<int>& frames, double se
     SubmitJob job;
     job.frames = format_frame_list(frames);
     job.output = e.output;
-    if (e.with_movie) job.movie = folder_of(e.output) + ".mp4";
+    if (e.with_movie) job.movie = movie_of(e);
     job.overwrite = e.existing == 2;
     job.skip_existing = e.existing == 1;
     job.estimated_s = seconds;
