@@ -71,7 +71,7 @@ struct ScribbleSelect {
     bool here_only = false;
     bool operator==(const ScribbleSelect&) const = default;
 };
-/// Shows what a scribble would give, without making it; without lines inside, no more.
+/// Shows what a scribble would give, without making it; without lines, no more.
 struct TryScribble {
     ScribbleSelect lines;
     bool operator==(const TryScribble&) const = default;

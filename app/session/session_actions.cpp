@@ -6,6 +6,7 @@
 #include "app/mattes/matte_layer.h"
 #include "app/mattes/paint.h"
 #include "app/project/key_rows.h"
+#include "app/project/region_names.h"
 #include "app/session/session_parts.h"
 
 namespace weft {
@@ -118,20 +119,30 @@ struct Session::Parts::Actor {
     }
 
     // ---- mattes ----
-    void operator()(const BeginStroke& a) const { s.strokes_.begin(a); }
+    void operator()(const BeginStroke& a) const {
+        if (a.kind != StrokeKind::kConfirm && !a.brush.subtract) begin_region();
+        s.strokes_.begin(a);
+    }
     void operator()(const ContinueStroke& a) const { s.strokes_.go_on(a); }
     void operator()(const EndStroke&) const { s.end_stroke(); }
     void operator()(const FillPolygon& a) const {
-        s.changes_.change([a](const Matte& m) { return fill_polygon(m, a.points, a.subtract); },
-                          a.subtract ? "Subtract shape" : "Add shape", a.here_only);
+        if (!a.subtract) begin_region();
+        s.changes_.fill(a);
     }
-    void operator()(const FloodSelect& a) const { s.changes_.flood(a); }
+    void operator()(const FloodSelect& a) const {
+        if (!a.subtract) begin_region();
+        s.changes_.flood(a);
+    }
     void operator()(const ScribbleSelect& a) const {
+        if (!a.keep.empty()) begin_region();
         s.changes_.scribble(a);
         s.trial_.settle();
     }
     void operator()(const TryScribble& a) const { s.trial_.ask(a.lines); }
-    void operator()(const SetShape& a) const { s.changes_.set_shape(a.shape); }
+    void operator()(const SetShape& a) const {
+        begin_region();
+        s.changes_.set_shape(a.shape);
+    }
     void operator()(const FollowShape& a) const { s.shapes_.follow(a); }
     void operator()(const DetachShape&) const { s.shapes_.detach(); }
     void operator()(const GrowMatte& a) const {
@@ -194,6 +205,13 @@ struct Session::Parts::Actor {
     void operator()(const StopPaintFlat&) const { s.flat_painting_.stop(); }
 
   private:
+    // What is painted on a shot without regions is the matte of its first one.
+    void begin_region() const {
+        const Project& project = s.document_.project();
+        if (!s.document_.is_open() || !s.plate_.reader() || !project.regions.empty()) return;
+        const AddRegion first{next_region(project), {}};
+        if (s.document_.edit(first)) select_added(first);
+    }
     void select_added(const AddRegion& added) const {
         const auto& regions = s.document_.project().regions;
         if (regions.empty()) return;

@@ -215,6 +215,36 @@ TEST_F(QuickStrokes, AFrameThatWasNotReachedIsNotPaintedOver) {
     EXPECT_EQ(view().mattes[0].pixels.at(40, 30), 255);
 }
 
+// What says where all of the surface is needs nothing from the frames before, and is not lost.
+TEST_F(QuickStrokes, AnOutlineOnAFrameThatWasNotReachedBeginsAKeyframe) {
+    open();
+    act(PauseAnalysis{true});
+    paint();
+    act(GoToFrame{kFrame});
+    const auto unreached = [&] {
+        return view().frame == kFrame && view().mattes[0].kind == RegionMatteView::Kind::kUnreached;
+    };
+    ASSERT_TRUE(wait(unreached));
+    const FillPolygon around{{{30, 18}, {60, 18}, {60, 44}, {30, 44}}, false, true};
+    FillPolygon hole = around;
+    hole.subtract = true;
+    act(hole);
+    ASSERT_TRUE(wait([&] { return !view().matte_busy; }));
+    EXPECT_FALSE(region().matte->keyframes.contains(kFrame)) << "there is nothing to take away";
+    const std::vector<Vec2> inside{{30, 20}, {60, 44}}, outside{{6, 8}, {6, 56}};
+    const std::vector<Action> outlines{around, ScribbleSelect{{inside}, {outside}, true}};
+    for (const Action& outline : outlines) {
+        act(outline);
+        ASSERT_TRUE(wait([&] { return region().matte->keyframes.contains(kFrame); }));
+        update();
+        EXPECT_EQ(view().mattes[0].pixels.at(44, 32), 255);
+        EXPECT_TRUE(region().matte->confirmed.empty());
+        EXPECT_THAT(view().notices.back().text, ::testing::HasSubstr("a new keyframe"));
+        act(Undo{});
+        ASSERT_TRUE(wait(unreached));
+    }
+}
+
 // Another keyframe changes: the frame shows what was seen there until it is propagated again.
 TEST_F(QuickStrokes, AnOutdatedMatteSaysSoAndIsReplacedWithoutSteppingAway) {
     open_propagated();

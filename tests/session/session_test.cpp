@@ -203,7 +203,8 @@ TEST_F(SessionByActions, OfANewRegionTheMatteIsPainted) {
 TEST_F(SessionByActions, ARefusalGoesWhenItHoldsNoMore) {
     open();
     act(DoEdit{RemoveRegion{{region().id, {}}}});
-    paint();
+    act(FillPolygon{{{30, 30}, {40, 30}, {40, 40}}, true, false});
+    update();
     ASSERT_EQ(view().notices.size(), 1U);
     EXPECT_EQ(view().notices[0].text, "Add a region first; then paint its matte.");
     update();

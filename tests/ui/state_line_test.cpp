@@ -58,6 +58,22 @@ TEST_F(StateLine, SaysThatAMaskIsPaintedOverThePlate) {
     EXPECT_TRUE(shows("Plate  ·  analysing 25%"));
 }
 
+// In a small window the time is worth more than the word.
+TEST_F(StateLine, IsNotClippedOnASmallScreen) {
+    ImGui::GetIO().DisplaySize = {1280, 720};
+    view.stages.provisional = true;
+    view.preview.analysing = true;
+    view.preview.state = PreviewView::State::kAnalysing;
+    view.preview.done = 2;
+    view.preview.total = 100;
+    view.preview.seconds_left = 316;
+    EXPECT_TRUE(shows("Provisional  ·  analysing 2%, 5:16 left"));
+    EXPECT_NE(robot->find("State shown: Provisional  ·  2%, 5:16 left"), nullptr);
+    ImGui::GetIO().DisplaySize = {1920, 1080};
+    robot->frames(2);
+    EXPECT_NE(robot->find("State shown: Provisional  ·  analysing 2%, 5:16 left"), nullptr);
+}
+
 class MatteState : public CanvasTest {
   protected:
     RegionMatteView& matte() {

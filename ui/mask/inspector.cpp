@@ -64,10 +64,10 @@ void keyframe_rows(Ctx& c, const Region& region, const MatteSource& matte) {
                 .tip = "Copies the nearest earlier keyframe's matte to this frame",
                 .width = -1}))
         c.emit(CopyKeyframe{std::prev(before)->first, c.view.frame});
-    // Below the buttons, which must not move when it appears.
-    if (!matte.confirmed.empty())
-        info_row(c, "Confirmed in part", frame_count(matte.confirmed.size()),
-                 "Frames on which parts of the matte are confirmed or corrected");
+    // Always there, so that nothing below it moves with the first correction.
+    info_row(c, "Confirmed in part",
+             matte.confirmed.empty() ? "none" : frame_count(matte.confirmed.size()),
+             "Frames on which parts of the matte are confirmed or corrected");
 }
 
 void matte_source_card(Ctx& c, const Region& region) {

@@ -36,11 +36,7 @@ void channel(Ctx& c, DisplaySettings::Channel wanted) {
 }
 
 void add_region(Ctx& c) {
-    Region region;
-    region.name =
-        free_region_name(c.view.project, "Region " + std::to_string(c.view.project.next_region_id));
-    region.color = static_cast<int>(c.view.project.regions.size()) % 7;
-    c.edit(AddRegion{region, {}});
+    c.edit(AddRegion{next_region(c.view.project), {}});
     // What it needs first is a matte.
     set_workspace(c.state, Workspace::kMask);
     if (c.state.tool == Tool::kPan) c.state.tool = Tool::kBrush;

@@ -15,13 +15,17 @@ struct State {
     const char* icon = nullptr;
     float part = -1;  // progress of the pending work, 0–1
     const char* tip = nullptr;
+    std::string brief = {};  // instead of the text where there is no room for it
 };
 
 void add_progress(const PreviewView& preview, State& to) {
     if (preview.total <= 0) return;
     to.part = static_cast<float>(preview.done) / static_cast<float>(preview.total);
-    to.text += " " + percent_text(preview.done, preview.total);
-    if (preview.seconds_left > 0) to.text += ", " + time_text(preview.seconds_left) + " left";
+    std::string progress = percent_text(preview.done, preview.total);
+    if (preview.seconds_left > 0) progress += ", " + time_text(preview.seconds_left) + " left";
+    const std::size_t first = to.text.find("  ·  ");
+    to.brief = to.text.substr(0, first) + "  ·  " + progress;
+    to.text += " " + progress;
 }
 
 State provisional_state(const Ctx& c) {
@@ -88,7 +92,9 @@ State state_of_picture(const Ctx& c) {
         if (const Region* region = v.selected_region())
             if (const auto found = v.unready.find(region->id); found != v.unready.end())
                 what += "  ·  " + found->second;
-        if (v.project.regions.empty()) what += "  ·  Add a region to start";
+        if (v.project.regions.empty())
+            what += c.state.workspace == Workspace::kMask ? "  ·  Paint over a surface to start"
+                                                          : "  ·  Add a region to start";
         return {what, t.text};
     }
     if (v.preview.state == PreviewView::State::kFailed)
@@ -123,10 +129,12 @@ void draw_state(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
     const float room =
         std::max(t.px(60), max.x - x - view_controls_width(c, max.x - min.x) - t.px(12));
     ImGui::PushFont(t.small);
-    const std::string shown = fitted(state.text, room);
+    const bool brief = !state.brief.empty() && ImGui::CalcTextSize(state.text.c_str()).x > room;
+    const std::string shown = fitted(brief ? state.brief : state.text, room);
     ImGui::PopFont();
     text_in(list, t.small, {x, min.y}, {x + room, max.y}, state.color, shown.c_str(), 0);
     c.note("State: " + state.text, {x, min.y}, {x + room, max.y});
+    c.note("State shown: " + shown, {x, min.y}, {x + room, max.y});
     const bool hovered = ImGui::IsMouseHoveringRect(min, {x + room, max.y});
     if (hovered && state.tip)
         ImGui::SetTooltip("%s", state.tip);

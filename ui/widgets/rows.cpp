@@ -317,8 +317,11 @@ void section_gap(Ctx& c) {
 
 void no_region(Ctx& c) {
     empty_state(c, icons::kLayers, "No region selected",
-                "A region is a surface that gets a new texture. Add one above, then paint its "
-                "matte.");
+                c.view.project.regions.empty() && c.state.workspace == Workspace::kMask
+                    ? "A region is a surface that gets a new texture. Paint over one on the "
+                      "picture."
+                    : "A region is a surface that gets a new texture. Add one above, then paint "
+                      "its matte.");
 }
 
 }  // namespace weft::ui

@@ -39,10 +39,9 @@ void tour(Ctx& c) {
     const Step kSteps[] = {
         {"A shot and its regions", words_of_shot(c), Workspace::kMask},
         {"Masking a surface",
-         "A matte defines where a surface is. Add a region with +, choose the brush (B) and paint "
-         "over a surface on one frame; it is propagated to the others. Ctrl subtracts, [ and ] "
-         "change the "
-         "size.",
+         "A matte defines where a surface is. Choose the brush (B) and paint over a surface on one "
+         "frame; it is propagated to the others. Ctrl subtracts, [ and ] change the size. For "
+         "another surface add a region with +.",
          Workspace::kMask},
         {"Choosing a texture",
          "Textures are below. Double-click one, or drag it onto a surface. Scale and rotation "

@@ -1,5 +1,6 @@
 #include "app/session/mattes/matte_changes.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -8,6 +9,7 @@
 #include "app/base/background.h"
 #include "app/mattes/matte_layer.h"
 #include "app/mattes/paint.h"
+#include "app/mattes/scribble_change.h"
 #include "app/mattes/scribble_matte.h"
 #include "engine/mask/confirmed_part.h"
 #include "engine/mask/shape_matte.h"
@@ -31,20 +33,42 @@ Matte drawn_lines(const std::vector<std::vector<Vec2>>& lines, Size size) {
 }
 
 // `change` of a matte, which counts where it changes it.
-std::function<ChangedMatte(const MattePtr&)> changed_by(std::function<Matte(const Matte&)> change) {
-    return [change = std::move(change)](const MattePtr& before) {
-        auto matte = std::make_shared<const Matte>(change(*before));
-        Matte where = changed_area(*before, *matte);
-        return ChangedMatte{std::move(matte), std::move(where)};
+ChangedMatte changed_to(const Matte& before, Matte after) {
+    auto matte = std::make_shared<const Matte>(std::move(after));
+    Matte where = changed_area(before, *matte);
+    return {std::move(matte), std::move(where)};
+}
+
+std::function<ChangedMatte(const MattePtr&, const MattePtr&)> changed_by(
+    std::function<Matte(const Matte&)> change) {
+    return [change = std::move(change)](const MattePtr& before, const MattePtr&) {
+        return changed_to(*before, change(*before));
     };
 }
 
 }  // namespace
 
-Matte scribbled(const Matte& before, const Picture& picture, const ScribbleSelect& lines) {
-    return segment_scribbles(before, shrink(picture, kLongestSide),
-                             drawn_lines(lines.keep, before.size()),
-                             drawn_lines(lines.drop, before.size()));
+Matte scribbled(const Matte& base, const Matte& before, const Picture& picture,
+                const ScribbleSelect& lines) {
+    const ImageU8x3 colours = shrink(picture, kLongestSide);
+    const Matte keep = drawn_lines(lines.keep, before.size());
+    const Matte drop = drawn_lines(lines.drop, before.size());
+    return is_empty(base) ? segment_scribbles(before, colours, keep, drop)
+                          : change_by_scribbles(base, colours, keep, drop);
+}
+
+MattePtr ScribbleRun::base_of(const MattePlace& place, const MattePtr& before) const {
+    if (!base_ || place != place_ || before == base_) return before;
+    const Hash128 hash = Hasher().image(*before).finish();
+    return std::find(made_.begin(), made_.end(), hash) == made_.end() ? before : base_;
+}
+
+void ScribbleRun::note(const MattePlace& place, const MattePtr& base, const Matte& made) {
+    const bool goes_on = base_ && place == place_ && *base == *base_;
+    if (!goes_on) made_.clear();
+    place_ = place;
+    base_ = base;
+    made_.push_back(Hasher().image(made).finish());
 }
 
 void MatteChanges::add(Change change) {
@@ -65,6 +89,20 @@ void MatteChanges::change(std::function<Matte(const Matte&)> change, const std::
          here_only ? Counts::kPart : Counts::kAll,
          {label, label + ", "},
          changed_by(std::move(change))});
+}
+
+void MatteChanges::fill(const FillPolygon& action) {
+    use_.end_stroke();
+    if (!use_.document.is_open() || !use_.target.may_paint()) return;
+    const std::string label = action.subtract ? "Subtract shape" : "Add shape";
+    Change change{use_.target.place(),
+                  action.here_only ? Counts::kPart : Counts::kAll,
+                  {label, label + ", "},
+                  changed_by([action](const Matte& m) {
+                      return fill_polygon(m, action.points, action.subtract);
+                  })};
+    change.outlines = !action.subtract;
+    add(std::move(change));
 }
 
 void MatteChanges::clear() {
@@ -92,15 +130,18 @@ void MatteChanges::flood(const FloodSelect& action) {
 void MatteChanges::scribble(const ScribbleSelect& action) {
     const PicturePtr picture = use_.plate.picture();
     use_.end_stroke();
-    if (!picture || action.keep.empty() || !use_.document.is_open() || !use_.target.may_paint())
+    if (!picture || (action.keep.empty() && action.drop.empty()) || !use_.document.is_open() ||
+        !use_.target.may_paint())
         return;
     Change change{use_.target.place(),
                   action.here_only ? Counts::kPart : Counts::kAll,
                   {"Scribble", "Scribble, "},
-                  changed_by([action, picture](const Matte& before) {
-                      return scribbled(before, *picture, action);
-                  })};
+                  [action, picture](const MattePtr& before, const MattePtr& base) {
+                      if (action.keep.empty() && is_empty(*base)) return ChangedMatte{};
+                      return changed_to(*before, scribbled(*base, *before, *picture, action));
+                  }};
     change.replaces = Replaces::kScribble;
+    change.outlines = !action.keep.empty();
     add(std::move(change));
 }
 
@@ -133,7 +174,8 @@ void MatteChanges::set_shape(const RotoShape& shape) {
 }
 
 void MatteChanges::paint(const MattePainting::Waiting& stroke, Counts counts, ChangeLabels labels) {
-    add({stroke.place, counts, std::move(labels), [stroke](const MattePtr& before) {
+    add({stroke.place, counts, std::move(labels),
+         [stroke](const MattePtr& before, const MattePtr&) {
              return paint_stroke(before, stroke.brush, stroke.points);
          }});
 }
@@ -156,23 +198,40 @@ bool MatteChanges::start() {
     PaintBase base{PaintBase::State::kReady, {}, {}};
     if (!next.from_nothing) base = use_.target.base(next.place, next.counts);
     if (base.state == PaintBase::State::kReading) return false;
-    Running begun{std::move(next), {}, std::move(base.part)};
+    if (base.state == PaintBase::State::kUnreached && next.outlines) {
+        base = {PaintBase::State::kReady, {}, {}};
+        use_.notices.add(NoticeKind::kInfo,
+                         "The matte had not been propagated to frame " +
+                             std::to_string(next.place.frame) +
+                             " yet, so this outline is a new keyframe there. Undo takes it back.");
+    }
+    Running begun{std::move(next), {}, std::move(base.part), {}};
     waiting_.pop_front();
     if (base.state != PaintBase::State::kReady) {
         use_.target.refuse(base, begun.change.place);
         return true;
     }
     if (!base.before) base.before = std::make_shared<const Matte>(use_.target.size());
-    begun.made = at_hand(
-        [make = begun.change.make, before = std::move(base.before)] { return make(before); });
+    begun.base = run_.base_of(begun.change.place, base.before);
+    begun.made = at_hand([make = begun.change.make, before = std::move(base.before),
+                          from = begun.base] { return make(before, from); });
     running_ = std::move(begun);
     return true;
+}
+
+void MatteChanges::note_scribble(const Running& done, const ChangedMatte& made) {
+    if (made.matte) return run_.note(done.change.place, done.base, *made.matte);
+    use_.notices.refuse(
+        "Nothing is painted on frame " + std::to_string(done.change.place.frame) +
+        " that a line outside could take away. Draw a line inside the surface first.");
 }
 
 void MatteChanges::keep(Running done) {
     const bool undone =
         !undone_.empty() && undone_at_ == Undone{use_.document.made(), use_.document.redos()};
-    use_.kept.keep_change(done.made.get(), done.part, done.change.place, done.change.labels,
+    ChangedMatte made = done.made.get();
+    if (done.change.replaces == Replaces::kScribble) note_scribble(done, made);
+    use_.kept.keep_change(std::move(made), done.part, done.change.place, done.change.labels,
                           done.change.shape);
     if (undone) note_undone();
 }

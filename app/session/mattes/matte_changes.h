@@ -18,12 +18,27 @@
 #include "app/session/mattes/paint_target.h"
 #include "app/session/session_view.h"
 #include "app/session/viewer/shown_plate.h"
+#include "engine/core/hash.h"
 
 namespace weft {
 
-/// The matte of a scribble on `before`. Pure.
-[[nodiscard]] Matte scribbled(const Matte& before, const Picture& picture,
+/// The matte of a scribble on `before`, in which scribbles may have changed `base`. Pure.
+[[nodiscard]] Matte scribbled(const Matte& base, const Matte& before, const Picture& picture,
                               const ScribbleSelect& lines);
+
+/// Scribbles on one frame: each has all lines of those before it, and begins with what was there
+/// before the first.
+class ScribbleRun {
+  public:
+    /// What a scribble on `before` begins with: itself, unless it was made by one of the run.
+    [[nodiscard]] MattePtr base_of(const MattePlace& place, const MattePtr& before) const;
+    void note(const MattePlace& place, const MattePtr& base, const Matte& made);
+
+  private:
+    MattePlace place_;
+    MattePtr base_;
+    std::vector<Hash128> made_;  // undo goes back to any of them
+};
 
 /// They are made one after another in the order in which they were asked for, each from what the
 /// ones before have left. Belongs to one thread and never blocks it, except in finish().
@@ -44,6 +59,8 @@ class MatteChanges {
 
     void change(std::function<Matte(const Matte&)> change, const std::string& label,
                 bool here_only = false);
+    /// An outline of the surface. On a frame that the matte has not reached it begins a keyframe.
+    void fill(const FillPolygon& action);
     void clear();
     void flood(const FloodSelect& action);
     void scribble(const ScribbleSelect& action);
@@ -57,6 +74,10 @@ class MatteChanges {
     [[nodiscard]] bool busy() const { return running_.has_value() || !waiting_.empty(); }
     /// Keeps one that is done, and begins with the next. Call it in every update.
     void take();
+    /// What a scribble on `before` begins with.
+    [[nodiscard]] MattePtr scribble_base(const MattePlace& place, const MattePtr& before) const {
+        return run_.base_of(place, before);
+    }
     /// Waits until all are made.
     void finish();
     /// Another document was opened: drops all.
@@ -79,15 +100,18 @@ class MatteChanges {
         MattePlace place;
         Counts counts = Counts::kAll;
         ChangeLabels labels;
-        std::function<ChangedMatte(const MattePtr&)> make;  // of the matte before, never null
-        std::optional<RotoShape> shape = {};                // that the matte is drawn from
-        bool from_nothing = false;                          // whatever the matte before is
+        // Of the matte before and of what a run of scribbles begins with; never null.
+        std::function<ChangedMatte(const MattePtr&, const MattePtr&)> make;
+        std::optional<RotoShape> shape = {};  // that the matte is drawn from
+        bool from_nothing = false;            // whatever the matte before is
         Replaces replaces = Replaces::kNothing;
+        bool outlines = false;  // the surface as a whole: a matte where none has arrived yet
     };
     struct Running {
         Change change;
         std::future<ChangedMatte> made;
         std::optional<ConfirmedMatte> part;
+        MattePtr base;
     };
     /// The state of the history with which the undone ones can be done again.
     struct Undone {
@@ -99,9 +123,12 @@ class MatteChanges {
     /// Begins with the next one. Returns false if it has to wait.
     bool start();
     void keep(Running done);
+    /// Remembers what a scribble has made, or says why it made nothing.
+    void note_scribble(const Running& done, const ChangedMatte& made);
     void note_undone();
 
     Uses use_;
+    ScribbleRun run_;
     std::optional<Running> running_;
     std::deque<Change> waiting_;
     std::vector<Change> undone_;  // the last one taken back is the last

@@ -9,7 +9,7 @@
 namespace weft {
 
 void ScribbleTrial::ask(const ScribbleSelect& lines) {
-    if (lines.keep.empty()) return end();
+    if (lines.keep.empty() && lines.drop.empty()) return end();
     settling_ = false;
     wanted_ = lines;
     if (!running_) start();
@@ -36,9 +36,11 @@ void ScribbleTrial::start() {
     PaintBase base = use_.target.base(place, lines.here_only ? Counts::kPart : Counts::kAll);
     if (base.state != PaintBase::State::kReady) return;
     if (!base.before) base.before = std::make_shared<const Matte>(use_.target.size());
-    running_ = Running{place, at_hand([lines, picture, before = std::move(base.before)] {
-                           return scribbled(*before, *picture, lines);
-                       })};
+    MattePtr begins = use_.changes.scribble_base(place, base.before);
+    running_ = Running{
+        place, at_hand([lines, picture, before = std::move(base.before), from = std::move(begins)] {
+            return scribbled(*from, *before, *picture, lines);
+        })};
 }
 
 void ScribbleTrial::take() {

@@ -29,7 +29,7 @@ class ScribbleTrial {
     };
     explicit ScribbleTrial(Uses uses) : use_(uses) {}
 
-    /// Without lines inside it ends.
+    /// Without lines it ends.
     void ask(const ScribbleSelect& lines);
     /// The lines are drawn: shows what was tried until the change is made.
     void settle();
