@@ -74,9 +74,18 @@ bool is_empty(const Matte& matte) {
     return cv::countNonZero(as_mat(matte) > 127) == 0;
 }
 
+Matte found_by_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
+                         const Matte& drop) {
+    if (!is_empty(drop) && !is_empty(keep)) {
+        const Matte nothing(before.size());
+        const Matte first = segment_scribbles(nothing, picture, keep, nothing);
+        if (ends_at_edges(first, picture)) return change_by_scribbles(first, picture, keep, drop);
+    }
+    return segment_scribbles(before, picture, keep, drop);
+}
+
 Matte change_by_scribbles(const Matte& base, ViewU8x3 picture, const Matte& keep,
                           const Matte& drop) {
-    if (is_empty(base)) return segment_scribbles(base, picture, keep, drop);
     const cv::Mat before = as_mat(base), found = cut_with(base, picture, keep, drop);
     const cv::Mat was = before > 127, is = found > 127, disc = round_brush(kMatteEdge_px);
     cv::Mat added = touched_by(as_mat(keep) > 127, is & ~was);

@@ -5,9 +5,15 @@
 
 namespace weft {
 
-/// As segment_scribbles(), but where something is painted in `base`, lines inside only add to it
-/// and lines outside only take away, and only what hangs together with a line: whatever else the
-/// cut finds is left as it was painted. Lines outside act on their own, too, within their reach.
+/// What lines find where nothing else is painted: as segment_scribbles(), but if those inside alone
+/// end at edges of the picture, those outside only take away from that what hangs together with
+/// them. `before`: what scribbles have found so far.
+[[nodiscard]] Matte found_by_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
+                                       const Matte& drop);
+
+/// On what is painted already, lines inside only add and lines outside only take away, and only
+/// what hangs together with a line: whatever else the cut finds is left as it was painted. Lines
+/// outside act on their own, too, within their reach.
 [[nodiscard]] Matte change_by_scribbles(const Matte& base, ViewU8x3 picture, const Matte& keep,
                                         const Matte& drop);
 

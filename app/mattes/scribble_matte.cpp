@@ -256,14 +256,22 @@ cv::Rect box_around(const cv::Mat& marks) {
     return box & cv::Rect({}, marks.size());
 }
 
+constexpr double kEnclosed = 0.75;  // the share of an outline on edges that ends a surface
+
+cv::Mat pixels_of(ViewU8x3 picture) {
+    return cv::Mat(picture.height(), picture.width(), CV_8UC3,
+                   const_cast<std::uint8_t*>(picture.data()),
+                   static_cast<std::size_t>(picture.stride()));
+}
+
 struct Cut {
     cv::Mat coarse, fine;
-    bool is_enclosed = false;    // by edges of the picture
+    double on_edges = 0;         // the share of its outline that lies on edges of the picture
+    bool is_enclosed = false;    // by such edges
     bool is_lines_only = false;  // nothing beside the lines inside, which end at no edge
 };
 
 Cut cut_out(const Crop& crop, const cv::Rect& box, cv::Size picture) {
-    constexpr double kEnclosed = 0.75;
     Cut out;
     cv::Mat background, foreground;
     // grabCut's k-means is random: a fixed seed gives equal mattes for equal scribbles
@@ -271,8 +279,8 @@ Cut cut_out(const Crop& crop, const cv::Rect& box, cv::Size picture) {
     out.coarse = coarse_cut(crop, background, foreground);
     out.fine =
         continued_to_border(fine_cut(crop, out.coarse, background, foreground), box, picture);
-    out.is_enclosed =
-        share_on_edges(out.fine, scaled(crop.colours, scale_to(crop, kFinePx))) >= kEnclosed;
+    out.on_edges = share_on_edges(out.fine, scaled(crop.colours, scale_to(crop, kFinePx)));
+    out.is_enclosed = out.on_edges >= kEnclosed;
     cv::Mat lines;
     cv::resize(crop.inside, lines, out.coarse.size(), 0, 0, cv::INTER_AREA);
     constexpr double kLittle = 1.25;
@@ -286,9 +294,7 @@ Cut cut_out(const Crop& crop, const cv::Rect& box, cv::Size picture) {
 Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
                         const Matte& drop) {
     if (cv::countNonZero(as_mat(keep) > 127) == 0) return before;
-    const cv::Mat all(picture.height(), picture.width(), CV_8UC3,
-                      const_cast<std::uint8_t*>(picture.data()),
-                      static_cast<std::size_t>(picture.stride()));
+    const cv::Mat all = pixels_of(picture);
     const cv::Rect everything(0, 0, before.width(), before.height());
     cv::Rect box = box_around(cv::max(as_mat(keep), as_mat(drop)));
     const bool painted = cv::countNonZero(as_mat(before) > 127) > 0;
@@ -307,7 +313,13 @@ Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep
         cut = cut_out(crop_of(false), box, everything.size());
     }
     // All of a plain surface that ends at the picture's border counts as outside.
-    if (!painted && cut.is_lines_only) cut = cut_out(crop_of(true), box, everything.size());
+    if (!painted && cut.is_lines_only) {
+        cut = cut_out(crop_of(true), box, everything.size());
+    } else if (!painted && box == everything && reaches_border(cut.coarse)) {
+        // A table lost its corners to it; what follows the picture's edges better is right.
+        Cut open = cut_out(crop_of(true), box, everything.size());
+        if (open.on_edges > cut.on_edges) cut = std::move(open);
+    }
     // Without a line outside only the picture can say how far the surface goes: by its edges.
     const bool told = cv::countNonZero(as_mat(drop)(box) > 127) > 0 || cut.is_enclosed;
     const Crop crop = crop_of(false);
@@ -323,6 +335,14 @@ Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep
     for (int y = 0; y < box.height; ++y)
         std::copy_n(full.ptr<std::uint8_t>(y), box.width, out.pixel(box.x, box.y + y));
     return out;
+}
+
+bool ends_at_edges(const Matte& matte, ViewU8x3 picture) {
+    const cv::Mat inside = as_mat(matte) > 127;
+    if (cv::countNonZero(inside) == 0) return false;
+    const cv::Mat all = pixels_of(picture);
+    const double scale = std::min(1.0, static_cast<double>(kFinePx) / std::max(all.cols, all.rows));
+    return share_on_edges(scaled(inside, scale) > 127, scaled(all, scale)) >= kEnclosed;
 }
 
 }  // namespace weft

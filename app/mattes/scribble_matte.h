@@ -16,4 +16,8 @@ namespace weft {
 [[nodiscard]] Matte segment_scribbles(const Matte& before, ViewU8x3 picture, const Matte& keep,
                                       const Matte& drop);
 
+/// Whether the matte ends where the picture has edges, at least on three quarters of its outline;
+/// the picture's borders count as edges.
+[[nodiscard]] bool ends_at_edges(const Matte& matte, ViewU8x3 picture);
+
 }  // namespace weft

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "app/mattes/scribble_matte.h"
@@ -92,11 +93,42 @@ TEST(ScribbleChange, ALineOutsideStaysNearOnAThinMatte) {
     EXPECT_EQ(out.at(340, 149), 255);
 }
 
-TEST(ScribbleChange, OnAnEmptyMatteItIsTheCut) {
-    const Matte keep = area({100, 120, 106, 200}), drop = area({40, 100, 46, 200});
-    EXPECT_EQ(change_by_scribbles(Matte(kShot), vest_and_hand(), keep, drop),
-              segment_scribbles(Matte(kShot), vest_and_hand(), keep, drop));
-    EXPECT_TRUE(is_empty(change_by_scribbles(Matte(kShot), vest_and_hand(), Matte(kShot), drop)));
+// On an empty matte: what the line inside has found by the picture's edges grows by no line
+// outside.
+TEST(ScribbleChange, ALineOutsideAddsNothingToWhatEndsAtEdges) {
+    ImageU8x3 picture = vest_and_hand();
+    // A ball on the vest, and flowers of its colour along the picture's border, which say that it
+    // is none of it as long as no line outside says more.
+    const auto yellow = [&](const Recti& where) {
+        constexpr std::uint8_t kYellow[] = {200, 170, 20};
+        for (int y = where.y0; y < where.y1; ++y)
+            for (int x = where.x0; x < where.x1; ++x)
+                for (int k = 0; k < 3; ++k)
+                    picture.pixel(x, y)[k] = static_cast<std::uint8_t>(kYellow[k] + (x + y) % 9);
+    };
+    yellow({250, 210, 270, 230});
+    yellow({0, 0, kShot.width, 12});
+    const Matte nothing(kShot), keep = area({100, 60, 300, 66});
+    const Matte first = found_by_scribbles(nothing, picture, keep, nothing);
+    ASSERT_TRUE(ends_at_edges(first, picture));
+    ASSERT_LT(first.at(260, 220), 128);
+    const Matte drop = area({10, 288, 390, 294});
+    const auto added = [&](const Matte& to) {
+        int out = 0;
+        for (int y = 0; y < kShot.height; ++y)
+            for (int x = 0; x < kShot.width; ++x)
+                out += to.at(x, y) > 127 && first.at(x, y) < 128;
+        return out;
+    };
+    const Matte out = found_by_scribbles(first, picture, keep, drop);
+    EXPECT_EQ(added(out), 0);
+    EXPECT_GT(added(segment_scribbles(first, picture, keep, drop)), 300) << "the cut alone";
+    EXPECT_EQ(out, found_by_scribbles(nothing, picture, keep, drop)) << "however fast they come";
+}
+
+TEST(ScribbleChange, ALineOutsideAloneFindsNothing) {
+    const Matte drop = area({40, 100, 46, 200});
+    EXPECT_TRUE(is_empty(found_by_scribbles(Matte(kShot), vest_and_hand(), Matte(kShot), drop)));
 }
 
 }  // namespace

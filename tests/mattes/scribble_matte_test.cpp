@@ -77,6 +77,16 @@ TEST(ScribbleMatte, GoesOnToThePicturesBorder) {
     EXPECT_LT(percent_wrong(found, filled(kCut)), 1);
 }
 
+// A table that ends at three of the picture's borders: no corner is cut off.
+TEST(ScribbleMatte, GoesOnIntoThePicturesCorners) {
+    constexpr Recti kTable{0, 120, 400, 300};
+    const Matte keep = filled({110, 220, 290, 226});
+    const Matte found = segment_scribbles(Matte(kPlate), plate(kTable), keep, Matte(kPlate));
+    for (const Vec2i corner : {Vec2i{2, 297}, Vec2i{397, 297}, Vec2i{0, 299}, Vec2i{2, 130}})
+        EXPECT_GT(found.at(corner.x, corner.y), 127) << corner.x << ' ' << corner.y;
+    EXPECT_LT(percent_wrong(found, filled(kTable)), 1);
+}
+
 // A curtain that gets darker from left to right has no edge at which a surface could end.
 TEST(ScribbleMatte, AShortLineStaysNearWhereNoEdgeEndsTheSurface) {
     ImageU8x3 curtain(kPlate, 0);

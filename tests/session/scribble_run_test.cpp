@@ -64,6 +64,19 @@ TEST_F(ScribbleRuns, LinesGiveTheSameOneByOneAndAtOnce) {
     EXPECT_EQ(seen(), in_steps);
 }
 
+// Esc clears the lines and leaves the matte, on which others begin.
+TEST_F(ScribbleRuns, OtherLinesBeginWithWhatTheOnesBeforeHaveMade) {
+    open();
+    fill(40, 18, 64, 46);
+    scribble({{inside_}, {outside_}});
+    ASSERT_GT(seen().at(30, 30), 127);
+    scribble({{{{44, 20}, {60, 44}}}, {{{80, 8}, {80, 56}}}});
+    EXPECT_GT(seen().at(30, 30), 127);
+    scribble({{}, {{{56, 24}, {56, 40}}}});
+    EXPECT_LT(seen().at(56, 32), 128);
+    EXPECT_GT(seen().at(30, 30), 127);
+}
+
 TEST_F(ScribbleRuns, ALineOutsideAloneTakesAwayAndIsPreviewed) {
     open();
     fill(24, 16, 90, 48);  // painted too far to the right

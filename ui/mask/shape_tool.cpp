@@ -194,6 +194,11 @@ void take_painted_over_away(ScribbleState& s, const SessionView& view) {
 // Scribbles belong to one frame of one region, and wait there.
 void go_to_scribbles(ScribbleState& s, const SessionView& view) {
     if (s.frame == view.frame && s.region == view.selected) return;
+    // The first line has begun the first region.
+    if (s.frame == view.frame && s.region == 0 && !s.lines.empty()) {
+        s.region = view.selected;
+        return;
+    }
     if (s.lines.empty())
         s.kept.erase({s.region, s.frame});
     else
@@ -215,7 +220,8 @@ void scribble_tool(Ctx& c, const ViewMap& map, bool active) {
     if (active && ImGui::IsMouseClicked(0)) {
         s.drawing = true;
         // The one before is a step of its own, which may still be on its way.
-        const int step = c.view.history_position + (c.view.matte_busy ? 2 : 1);
+        const int step = c.view.history_position + (c.view.matte_busy ? 2 : 1) +
+                         (c.view.project.regions.empty() ? 1 : 0);  // which is begun, too
         s.lines.push_back({{map.to_plate(ImGui::GetIO().MousePos)}, subtracts(), step, false});
     } else if (s.drawing) {
         const std::size_t before = s.lines.back().line.size();

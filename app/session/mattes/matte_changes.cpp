@@ -10,7 +10,6 @@
 #include "app/mattes/matte_layer.h"
 #include "app/mattes/paint.h"
 #include "app/mattes/scribble_change.h"
-#include "app/mattes/scribble_matte.h"
 #include "engine/mask/confirmed_part.h"
 #include "engine/mask/shape_matte.h"
 
@@ -53,22 +52,31 @@ Matte scribbled(const Matte& base, const Matte& before, const Picture& picture,
     const ImageU8x3 colours = shrink(picture, kLongestSide);
     const Matte keep = drawn_lines(lines.keep, before.size());
     const Matte drop = drawn_lines(lines.drop, before.size());
-    return is_empty(base) ? segment_scribbles(before, colours, keep, drop)
+    return is_empty(base) ? found_by_scribbles(before, colours, keep, drop)
                           : change_by_scribbles(base, colours, keep, drop);
 }
 
-MattePtr ScribbleRun::base_of(const MattePlace& place, const MattePtr& before) const {
+MattePtr ScribbleRun::base_of(const MattePlace& place, const MattePtr& before,
+                              const ScribbleSelect& lines) const {
     if (!base_ || place != place_ || before == base_) return before;
+    const auto begin_with = [](const auto& all, const auto& first) {
+        return first.size() <= all.size() && std::equal(first.begin(), first.end(), all.begin());
+    };
     const Hash128 hash = Hasher().image(*before).finish();
-    return std::find(made_.begin(), made_.end(), hash) == made_.end() ? before : base_;
+    const bool goes_on = std::any_of(made_.begin(), made_.end(), [&](const Made& one) {
+        return one.matte == hash && begin_with(lines.keep, one.lines.keep) &&
+               begin_with(lines.drop, one.lines.drop);
+    });
+    return goes_on ? base_ : before;
 }
 
-void ScribbleRun::note(const MattePlace& place, const MattePtr& base, const Matte& made) {
+void ScribbleRun::note(const MattePlace& place, const MattePtr& base, const ScribbleSelect& lines,
+                       const Matte& made) {
     const bool goes_on = base_ && place == place_ && *base == *base_;
     if (!goes_on) made_.clear();
     place_ = place;
     base_ = base;
-    made_.push_back(Hasher().image(made).finish());
+    made_.push_back({Hasher().image(made).finish(), lines});
 }
 
 void MatteChanges::add(Change change) {
@@ -142,6 +150,7 @@ void MatteChanges::scribble(const ScribbleSelect& action) {
                   }};
     change.replaces = Replaces::kScribble;
     change.outlines = !action.keep.empty();
+    change.lines = action;
     add(std::move(change));
 }
 
@@ -212,7 +221,9 @@ bool MatteChanges::start() {
         return true;
     }
     if (!base.before) base.before = std::make_shared<const Matte>(use_.target.size());
-    begun.base = run_.base_of(begun.change.place, base.before);
+    begun.base = begun.change.lines
+                     ? run_.base_of(begun.change.place, base.before, *begun.change.lines)
+                     : base.before;
     begun.made = at_hand([make = begun.change.make, before = std::move(base.before),
                           from = begun.base] { return make(before, from); });
     running_ = std::move(begun);
@@ -220,7 +231,7 @@ bool MatteChanges::start() {
 }
 
 void MatteChanges::note_scribble(const Running& done, const ChangedMatte& made) {
-    if (made.matte) return run_.note(done.change.place, done.base, *made.matte);
+    if (made.matte) return run_.note(done.change.place, done.base, *done.change.lines, *made.matte);
     use_.notices.refuse(
         "Nothing is painted on frame " + std::to_string(done.change.place.frame) +
         " that a line outside could take away. Draw a line inside the surface first.");
@@ -230,7 +241,7 @@ void MatteChanges::keep(Running done) {
     const bool undone =
         !undone_.empty() && undone_at_ == Undone{use_.document.made(), use_.document.redos()};
     ChangedMatte made = done.made.get();
-    if (done.change.replaces == Replaces::kScribble) note_scribble(done, made);
+    if (done.change.lines) note_scribble(done, made);
     use_.kept.keep_change(std::move(made), done.part, done.change.place, done.change.labels,
                           done.change.shape);
     if (undone) note_undone();

@@ -26,18 +26,24 @@ namespace weft {
 [[nodiscard]] Matte scribbled(const Matte& base, const Matte& before, const Picture& picture,
                               const ScribbleSelect& lines);
 
-/// Scribbles on one frame: each has all lines of those before it, and begins with what was there
-/// before the first.
+/// Scribbles on one frame that go on: each has all lines of the one before it, and begins with what
+/// was there before the first.
 class ScribbleRun {
   public:
-    /// What a scribble on `before` begins with: itself, unless it was made by one of the run.
-    [[nodiscard]] MattePtr base_of(const MattePlace& place, const MattePtr& before) const;
-    void note(const MattePlace& place, const MattePtr& base, const Matte& made);
+    /// What a scribble on `before` begins with: that itself, unless the one that made it goes on.
+    [[nodiscard]] MattePtr base_of(const MattePlace& place, const MattePtr& before,
+                                   const ScribbleSelect& lines) const;
+    void note(const MattePlace& place, const MattePtr& base, const ScribbleSelect& lines,
+              const Matte& made);
 
   private:
+    struct Made {
+        Hash128 matte;
+        ScribbleSelect lines;
+    };
     MattePlace place_;
     MattePtr base_;
-    std::vector<Hash128> made_;  // undo goes back to any of them
+    std::vector<Made> made_;  // undo goes back to any of them
 };
 
 /// They are made one after another in the order in which they were asked for, each from what the
@@ -75,8 +81,9 @@ class MatteChanges {
     /// Keeps one that is done, and begins with the next. Call it in every update.
     void take();
     /// What a scribble on `before` begins with.
-    [[nodiscard]] MattePtr scribble_base(const MattePlace& place, const MattePtr& before) const {
-        return run_.base_of(place, before);
+    [[nodiscard]] MattePtr scribble_base(const MattePlace& place, const MattePtr& before,
+                                         const ScribbleSelect& lines) const {
+        return run_.base_of(place, before, lines);
     }
     /// Waits until all are made.
     void finish();
@@ -106,6 +113,7 @@ class MatteChanges {
         bool from_nothing = false;            // whatever the matte before is
         Replaces replaces = Replaces::kNothing;
         bool outlines = false;  // the surface as a whole: a matte where none has arrived yet
+        std::optional<ScribbleSelect> lines = {};  // of a scribble
     };
     struct Running {
         Change change;

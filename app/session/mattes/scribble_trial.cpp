@@ -36,7 +36,7 @@ void ScribbleTrial::start() {
     PaintBase base = use_.target.base(place, lines.here_only ? Counts::kPart : Counts::kAll);
     if (base.state != PaintBase::State::kReady) return;
     if (!base.before) base.before = std::make_shared<const Matte>(use_.target.size());
-    MattePtr begins = use_.changes.scribble_base(place, base.before);
+    MattePtr begins = use_.changes.scribble_base(place, base.before, lines);
     running_ = Running{
         place, at_hand([lines, picture, before = std::move(base.before), from = std::move(begins)] {
             return scribbled(*from, *before, *picture, lines);
