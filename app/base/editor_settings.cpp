@@ -29,23 +29,24 @@ void take(const Json& json, const char* key, T& into) {
     }
 }
 
-// [in, out], null where an end is not set.
-Json marked_json(const std::map<std::string, MarkedRange>& marked) {
-    const auto end_of = [](std::optional<int> frame) { return frame ? Json(*frame) : Json(); };
+// [in, out, frame], null where it is not set.
+Json places_json(const std::map<std::string, ProjectPlace>& places) {
+    const auto number = [](std::optional<int> frame) { return frame ? Json(*frame) : Json(); };
     Json out = Json::object();
-    for (const auto& [project, range] : marked)
-        out[project] = Json::array({end_of(range.in), end_of(range.out)});
+    for (const auto& [project, place] : places)
+        out[project] = Json::array({number(place.in), number(place.out), number(place.frame)});
     return out;
 }
 
-void take_marked(const Json& json, std::map<std::string, MarkedRange>& into) {
+void take_places(const Json& json, std::map<std::string, ProjectPlace>& into) {
     if (!json.contains("marked") || !json.at("marked").is_object()) return;
-    const auto end_of = [](const Json& frame) {
+    const auto number = [](const Json& frame) {
         return frame.is_number_integer() ? std::optional(frame.get<int>()) : std::nullopt;
     };
-    for (const auto& [project, range] : json.at("marked").items()) {
-        if (range.is_array() && range.size() == 2)
-            into[project] = {end_of(range[0]), end_of(range[1])};
+    for (const auto& [project, place] : json.at("marked").items()) {
+        if (!place.is_array() || place.size() < 2) continue;
+        into[project] = {number(place[0]), number(place[1]), {}};
+        if (place.size() > 2) into[project].frame = number(place[2]);  // files before had none
     }
 }
 
@@ -71,7 +72,7 @@ EditorSettings load_editor_settings(const std::string& path) {
     take(json, "keys", out.keys);
     take(json, "sizes", out.sizes);
     take(json, "recent", out.recent);
-    take_marked(json, out.marked);
+    take_places(json, out.places);
     take(json, "favourites", out.favourites);
     take(json, "recent_textures", out.recent_textures);
     take(json, "collections", out.collections);
@@ -95,7 +96,7 @@ Status save_editor_settings(const std::string& path, const EditorSettings& s) {
                     {"keys", s.keys},
                     {"sizes", s.sizes},
                     {"recent", s.recent},
-                    {"marked", marked_json(s.marked)},
+                    {"marked", places_json(s.places)},
                     {"favourites", s.favourites},
                     {"recent_textures", s.recent_textures},
                     {"collections", s.collections},

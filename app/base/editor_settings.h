@@ -10,21 +10,22 @@
 
 namespace weft {
 
-/// Frames; unset ends are the shot's.
-struct MarkedRange {
-    std::optional<int> in, out;
-    bool operator==(const MarkedRange&) const = default;
+/// Where a project was left.
+struct ProjectPlace {
+    std::optional<int> in, out;  ///< The marked range; unset ends are the shot's.
+    std::optional<int> frame;    ///< Of the playhead; unset: the first one.
+    bool operator==(const ProjectPlace&) const = default;
 };
 
 struct EditorSettings {
     bool dark = true;
     bool grey_surround = false;  ///< 18 % grey viewer background instead of near black.
     double ui_scale = 0;         ///< Interface scale; 0: the monitor's.
-    std::map<std::string, std::string> keys;    ///< Command → "Ctrl+Shift+P"; only changed ones.
-    std::map<std::string, double> sizes;        ///< Panel sizes by name, unscaled px.
-    std::vector<std::string> recent;            ///< Project files, the newest first.
-    std::map<std::string, MarkedRange> marked;  ///< Of recent projects, by file.
-    std::vector<std::string> favourites;        ///< Favourite textures, by path.
+    std::map<std::string, std::string> keys;     ///< Command → "Ctrl+Shift+P"; only changed ones.
+    std::map<std::string, double> sizes;         ///< Panel sizes by name, unscaled px.
+    std::vector<std::string> recent;             ///< Project files, the newest first.
+    std::map<std::string, ProjectPlace> places;  ///< Of recent projects, by file.
+    std::vector<std::string> favourites;         ///< Favourite textures, by path.
     std::vector<std::string> recent_textures;
     std::map<std::string, std::vector<std::string>> collections;  ///< Name → textures, by path.
     std::vector<std::string> texture_folders;

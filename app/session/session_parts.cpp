@@ -73,8 +73,9 @@ void Session::Parts::document_replaced() {
     textures_.forget();
     shown_mattes_.forget();
     playback_.reset();
-    const MarkedRange marked = marked_range(settings_, document_.path());
-    playback_.mark(marked.in, marked.out);
+    const ProjectPlace left = place_left(settings_, document_.path());
+    playback_.mark(left.in, left.out);
+    left_at_ = left.frame;
     selection_ = {};
     strip_.forget();
     measurement_.end();
@@ -133,17 +134,30 @@ void Session::Parts::update(double now_s) {
     painting_.shown();
 }
 
+// Not of what is only just opened, nor each frame of what is played.
+void Session::Parts::remember_place() {
+    if (plate_.opening() || playback_.frames().empty() || playback_.direction() != 0) return;
+    const int first = playback_.frames().front(), now = playback_.frame();
+    weft::remember_place(settings_, document_.path(),
+                         {playback_.mark_in(), playback_.mark_out(),
+                          now == first ? std::nullopt : std::optional(now)});
+}
+
 void Session::Parts::advance(double now_s) {
     enter("files");
     tasks_.finish(false);
     enter("plate");
     shutdowns_.clear_ended();
     if (plate_.take()) {
-        if (const auto frame = opening_.take_first_frame()) (void)playback_.go_to(*frame);
+        const auto left_at = std::exchange(left_at_, std::nullopt);
+        if (const auto frame = opening_.take_first_frame())
+            (void)playback_.go_to(*frame);
+        else if (left_at)
+            (void)playback_.go_to(*left_at);
         preview_desk_.ask();
         document_.touch();
     }
-    remember_marked_range(settings_, document_.path(), {playback_.mark_in(), playback_.mark_out()});
+    remember_place();
     notices_.set_time(now_s);
     opening_.find_more_recoverable(now_s);
     plate_.advance(now_s);

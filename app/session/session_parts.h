@@ -77,6 +77,7 @@ class Session::Parts final : private DocumentFollower {
     // ---- update() ----
     void advance(double now_s);
     void advance_mattes();
+    void remember_place();
     void notice_errors();
     void show(double now_s);
     /// What a panel may have to see before the next update.
@@ -117,6 +118,7 @@ class Session::Parts final : private DocumentFollower {
     DocumentOpening opening_;
 
     ShownPlate plate_;
+    std::optional<int> left_at_;  // the frame to go to when the plate is open
     Screens screens_;
     PreviewDesk preview_desk_;
     ShownStrip strip_;

@@ -32,10 +32,12 @@ TEST_F(EditorFiles, SettingsRoundTrip) {
     settings.ui_scale = 1.5;
     settings.keys["play"] = "Space";
     settings.recent = {"/a/shot.weft"};
-    settings.marked["/a/shot.weft"] = {-3, std::nullopt};
+    settings.places["/a/shot.weft"] = {-3, std::nullopt, 12};
     settings.collections["walls"] = {"db:1234"};
     ASSERT_TRUE(save_editor_settings(path, settings));
     EXPECT_EQ(load_editor_settings(path), settings);
+    std::ofstream(path) << R"({"marked": {"/a/shot.weft": [2, 5]}})";
+    EXPECT_EQ(load_editor_settings(path).places.at("/a/shot.weft"), (ProjectPlace{2, 5, {}}));
     std::ofstream(path) << "{ \"dark\": ";
     EXPECT_EQ(load_editor_settings(path), EditorSettings{}) << "a damaged file gives the defaults";
 }

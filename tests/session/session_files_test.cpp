@@ -162,6 +162,27 @@ TEST_F(SessionFiles, AProjectsMarkedRangeIsRemembered) {
     EXPECT_FALSE(view().mark_in);
 }
 
+TEST_F(SessionFiles, AProjectOpensAtTheFrameAtWhichItWasLeft) {
+    open();
+    save_as("shot.weft");
+    act(GoToFrame{3});
+    update();
+    save_as("other.weft");
+    act(GoToFrame{1});
+    update();
+    const auto opens_at = [&](const std::string& what, int frame) {
+        act(OpenAny{in(what)});
+        update();
+        ASSERT_TRUE(wait([&] { return view().plate.state == PlateView::State::kOpen; }));
+        EXPECT_EQ(view().frame, frame) << what;
+    };
+    opens_at("shot.weft", 3);
+    opens_at("other.weft", 1);
+    opens_at("shot.weft", 3);
+    opens_at("frames", 1);
+    opens_at("shot.weft", 3);
+}
+
 TEST_F(SessionFiles, MissingFilesAreListedAndRelinkedInOneStep) {
     open();
     paint();

@@ -10,23 +10,22 @@ void remember_recent(EditorSettings& settings, const std::string& path) {
     recent.insert(recent.begin(), path);
     constexpr std::size_t kMost = 12;
     if (recent.size() > kMost) recent.resize(kMost);
-    std::erase_if(settings.marked, [&](const auto& project) {
+    std::erase_if(settings.places, [&](const auto& project) {
         return std::ranges::find(recent, project.first) == recent.end();
     });
 }
 
-MarkedRange marked_range(const EditorSettings& settings, const std::string& path) {
-    const auto found = settings.marked.find(path);
-    return found == settings.marked.end() ? MarkedRange{} : found->second;
+ProjectPlace place_left(const EditorSettings& settings, const std::string& path) {
+    const auto found = settings.places.find(path);
+    return found == settings.places.end() ? ProjectPlace{} : found->second;
 }
 
-void remember_marked_range(EditorSettings& settings, const std::string& path,
-                           const MarkedRange& range) {
+void remember_place(EditorSettings& settings, const std::string& path, const ProjectPlace& place) {
     if (path.empty()) return;
-    if (range == MarkedRange{})
-        settings.marked.erase(path);
+    if (place == ProjectPlace{})
+        settings.places.erase(path);
     else
-        settings.marked[path] = range;
+        settings.places[path] = place;
 }
 
 }  // namespace weft

@@ -11,9 +11,8 @@ namespace weft {
 /// out.
 void remember_recent(EditorSettings& settings, const std::string& path);
 
-/// The range that is marked in a project; none for one without a file.
-[[nodiscard]] MarkedRange marked_range(const EditorSettings& settings, const std::string& path);
-void remember_marked_range(EditorSettings& settings, const std::string& path,
-                           const MarkedRange& range);
+/// Where a project was left; nowhere for one without a file.
+[[nodiscard]] ProjectPlace place_left(const EditorSettings& settings, const std::string& path);
+void remember_place(EditorSettings& settings, const std::string& path, const ProjectPlace& place);
 
 }  // namespace weft
