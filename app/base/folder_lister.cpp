@@ -111,26 +111,43 @@ Expected<std::vector<FolderEntry>> list_folder(const std::string& folder) {
     return out;
 }
 
+FolderLister::Listed FolderLister::listed(const std::string& path) {
+    std::error_code none;
+    if (fs::is_regular_file(path, none))
+        return {list_folder(fs::path(path).parent_path().string()), path};
+    auto here = list_folder(path);
+    const std::string begins = fs::path(path).filename().string();
+    if (here || begins.empty() || fs::exists(path, none)) return {std::move(here), {}};
+    auto beside = list_folder(fs::path(path).parent_path().string());
+    if (!beside) return {std::move(here), {}};
+    const auto same = [](unsigned char a, unsigned char b) {
+        return std::tolower(a) == std::tolower(b);
+    };
+    std::erase_if(*beside, [&](const FolderEntry& entry) {
+        return entry.name.size() < begins.size() ||
+               !std::equal(begins.begin(), begins.end(), entry.name.begin(), same);
+    });
+    if (beside->empty()) return {std::move(here), {}};
+    return {std::move(beside), {}, true};
+}
+
 const std::vector<FolderEntry>* FolderLister::entries(const std::string& folder) {
     if (pending_.valid() &&
         pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        auto [listed, file] = pending_.get();
-        ready_ = listed.has_value();
-        error_ = listed ? std::string() : listed.error().text();
-        entries_ = listed ? std::move(*listed) : std::vector<FolderEntry>{};
+        auto [found, file, completes] = pending_.get();
+        ready_ = found.has_value();
+        error_ = found ? std::string() : found.error().text();
+        entries_ = found ? std::move(*found) : std::vector<FolderEntry>{};
         file_ = std::move(file);
+        completes_ = completes;
     }
     if (folder != folder_ && !pending_.valid()) {
         folder_ = folder;
         ready_ = false;
         error_.clear();
         file_.clear();
-        pending_ = in_background([folder] {
-            std::error_code none;
-            if (fs::is_regular_file(folder, none))
-                return Listed{list_folder(fs::path(folder).parent_path().string()), folder};
-            return Listed{list_folder(folder), {}};
-        });
+        completes_ = false;
+        pending_ = in_background([folder] { return listed(folder); });
     }
     return ready_ && folder == folder_ ? &entries_ : nullptr;
 }

@@ -31,6 +31,8 @@ class FolderLister {
     [[nodiscard]] const std::string& error() const { return error_; }
     /// The file that was asked for instead of a folder; empty: none. entries() are those beside it.
     [[nodiscard]] const std::string& file() const { return file_; }
+    /// There is no such folder or file; entries() are those whose names begin like it.
+    [[nodiscard]] bool completes() const { return completes_; }
     void refresh() { folder_.clear(); }
     [[nodiscard]] bool busy() const { return pending_.valid(); }
 
@@ -38,10 +40,13 @@ class FolderLister {
     struct Listed {
         Expected<std::vector<FolderEntry>> entries;
         std::string file;
+        bool completes = false;
     };
+    /// What there is at a path, or begins like its last name.
+    static Listed listed(const std::string& path);
     std::string folder_, error_, file_;
     std::vector<FolderEntry> entries_;
-    bool ready_ = false;
+    bool ready_ = false, completes_ = false;
     std::future<Listed> pending_;
 };
 

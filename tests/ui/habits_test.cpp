@@ -126,6 +126,41 @@ TEST_F(Habits, AFileThatIsTypedInTheOpenDialogIsOpened) {
     fs::remove_all(folder);
 }
 
+// As in a shell: the beginning of a name is enough.
+TEST_F(Habits, TheBeginningOfANameListsWhatBeginsLikeIt) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(::testing::TempDir()) / "weft_typed_name";
+    fs::create_directories(folder / "Shots");
+    for (const char* name : {"a.weft", "b.weft"})
+        std::ofstream(folder / "Shots" / name) << "{}";
+    const auto wait = [&](auto&& done) {
+        for (int k = 0; k < 500 && !done(); ++k) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            robot->frames(1);
+        }
+        EXPECT_TRUE(done());
+    };
+    const auto type = [&](const fs::path& path) {
+        ASSERT_TRUE(robot->click("Browser/Folder"));
+        robot->key("Ctrl+A");
+        robot->type(path.string());
+    };
+    robot->frames(2);
+    robot->key("Ctrl+O");
+    robot->frames(3);
+    type(folder / "sho");
+    wait([&] { return robot->find("Browser/Shots") != nullptr; });
+    robot->key("Enter");
+    wait([&] { return robot->find("Browser/a.weft") != nullptr; });
+    EXPECT_EQ(shell->state().browser.folder, (folder / "Shots").string());
+    type(folder / "Shots" / "b");
+    robot->key("Enter");  // at once, before it is looked up
+    wait([&] { return !emitted<OpenAny>().empty(); });
+    ASSERT_THAT(emitted<OpenAny>(), SizeIs(1));
+    EXPECT_EQ(emitted<OpenAny>()[0].path, (folder / "Shots" / "b.weft").string());
+    fs::remove_all(folder);
+}
+
 TEST_F(Habits, AMenuIsClosedByItsNameAndByEsc) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/File"));

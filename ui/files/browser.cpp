@@ -326,6 +326,8 @@ void file_browser(Ctx& c) {
     const std::string& typed = c.folders.file();
     const FolderEntry* chosen = nullptr;
     const FolderEntry* selected = nullptr;
+    const bool completes = all && c.folders.completes();
+    if (completes && b.selected < 0) b.selected = 0;
     if (all) {
         chosen = entries(c, *all, {size.x - t.px(214), body});
         if (b.selected >= 0 && b.selected < static_cast<int>(all->size()))
@@ -357,11 +359,13 @@ void file_browser(Ctx& c) {
     const bool go = button(c, verb, {.look = Look::kPrimary, .enabled = can, .width = t.px(106)});
     const bool enter = ImGui::IsKeyPressed(257) && can && (named || !ImGui::GetIO().WantTextInput);
     // It may still have to be looked up.
-    b.open_typed =
-        !folder && (b.open_typed || ImGui::IsKeyPressed(257)) && (!all || !typed.empty());
+    b.open_typed = !folder && (b.open_typed || ImGui::IsKeyPressed(257)) &&
+                   (!all || !typed.empty() || completes);
     cancel |= ImGui::IsKeyPressed(256);
     ImGui::End();
-    const FolderEntry* use = chosen ? chosen : (go || enter) && !folder ? selected : nullptr;
+    const bool takes = !folder && (go || enter || (completes && b.open_typed));
+    const FolderEntry* use = chosen ? chosen : takes ? selected : nullptr;
+    if (use) b.open_typed = false;
     if (use && use->kind == EntryKind::kFolder) {
         b.folder = use->path;
         b.selected = -1;
