@@ -21,12 +21,4 @@ std::string free_region_name(const Project& project, const std::string& wanted) 
     return name;
 }
 
-Region next_region(const Project& project) {
-    constexpr std::size_t kColors = 7;
-    Region out;
-    out.name = free_region_name(project, fmt::format("Region {}", project.next_region_id));
-    out.color = static_cast<int>(project.regions.size() % kColors);
-    return out;
-}
-
 }  // namespace weft

@@ -16,7 +16,4 @@ namespace weft {
 /// Returns `wanted`, or the first free of "wanted 2", "wanted 3", ….
 [[nodiscard]] std::string free_region_name(const Project& project, const std::string& wanted);
 
-/// A region as it is added: with a free name and a colour of its own.
-[[nodiscard]] Region next_region(const Project& project);
-
 }  // namespace weft

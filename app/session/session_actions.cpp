@@ -3,10 +3,10 @@
 #include <iterator>
 #include <set>
 
+#include "app/base/next_region.h"
 #include "app/mattes/matte_layer.h"
 #include "app/mattes/paint.h"
 #include "app/project/key_rows.h"
-#include "app/project/region_names.h"
 #include "app/session/session_parts.h"
 
 namespace weft {

@@ -130,7 +130,7 @@ const std::vector<Floor> kFloors{
     {"app/session/session_parts.cpp",
      {"app/project", "app/session/session_parts.h", "app/session/timeline_marks.h"}},
     {"app/session/session_actions.cpp",
-     {"app/project", "app/mattes", "app/session/session_parts.h"}},
+     {"app/project", "app/base", "app/mattes", "app/session/session_parts.h"}},
     {"app/session/session.h",
      {"engine/media", "app/base", "app/session/action.h", "app/session/session_view.h"}},
     {"app/session/session.cpp", {"app/session/session.h", "app/session/session_parts.h"}},

@@ -1,4 +1,5 @@
 // Scribbles on what is painted already, and what is painted on a shot without regions.
+#include "app/base/next_region.h"
 #include "tests/session/session_fixture.h"
 
 namespace weft::test {
@@ -109,10 +110,11 @@ TEST_F(ScribbleRuns, PaintingBeginsTheFirstRegion) {
         act(DoEdit{RemoveRegion{{region().id, {}}}});
         update();
         ASSERT_TRUE(view().project.regions.empty());
+        const std::string name = next_region(view().project).name;
         act(action);
         settle();
         ASSERT_EQ(view().project.regions.size(), 1U);
-        EXPECT_EQ(region().name.rfind("Region ", 0), 0U) << region().name;
+        EXPECT_EQ(region().name, name);
         EXPECT_EQ(view().selected, region().id);
         EXPECT_TRUE(view().notices.empty());
     };

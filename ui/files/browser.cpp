@@ -253,6 +253,13 @@ const std::string& listed_path(BrowserState& b) {
     return b.listed;
 }
 
+// Of what begins like the typed name, Enter takes the first.
+bool selects_match(Ctx& c) {
+    int& selected = c.state.browser.selected;
+    if (c.folders.completes() && selected < 0) selected = 0;
+    return c.folders.completes();
+}
+
 // Where it is: the folder's field takes any path.
 void folder_row(Ctx& c) {
     const Theme& t = c.theme;
@@ -326,8 +333,7 @@ void file_browser(Ctx& c) {
     const std::string& typed = c.folders.file();
     const FolderEntry* chosen = nullptr;
     const FolderEntry* selected = nullptr;
-    const bool completes = all && c.folders.completes();
-    if (completes && b.selected < 0) b.selected = 0;
+    const bool completes = all && selects_match(c);
     if (all) {
         chosen = entries(c, *all, {size.x - t.px(214), body});
         if (b.selected >= 0 && b.selected < static_cast<int>(all->size()))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/base/next_region.h"
 #include "app/project/region_names.h"
 #include "ui/base/commands.h"
 #include "ui/base/ctx.h"
