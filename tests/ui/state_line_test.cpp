@@ -102,6 +102,25 @@ TEST_F(MatteState, IsSaidOnThePictureWhereItIsNotThatOfTheDocument) {
     EXPECT_FALSE(says("Matte before the last change  ·  propagating…"));
 }
 
+TEST_F(MatteState, NothingMovesWithTheFirstCorrection) {
+    const auto change = [&](auto&& what) {
+        view.project.regions[0] = view.project.regions[0].with(
+            [&](Region& r) { r.matte = r.matte.with([&](MatteSource& m) { what(m); }); });
+        robot->frames(2);
+    };
+    (void)matte();
+    go("Mask", Tool::kBrush);
+    change([](MatteSource& m) {
+        m.files.clear();
+        m.keyframes[1001].path = "key.png";
+    });
+    const DrawnItem* before = robot->find("Edge/Choke");
+    ASSERT_NE(before, nullptr);
+    const float at = before->min.y;
+    change([](MatteSource& m) { m.confirmed[1002].path = "part.png"; });
+    EXPECT_EQ(robot->find("Edge/Choke")->min.y, at);
+}
+
 TEST_F(MatteState, TheShotIsPropagatedWhenAllItsFramesAre) {
     view.project.regions[0] = view.project.regions[0].with([](Region& r) {
         r.matte = r.matte.with([](MatteSource& m) {

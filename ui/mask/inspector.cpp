@@ -35,12 +35,14 @@ void shape_card(Ctx& c, const KeyedShape& shape) {
         c.commands.run("tool.shape", c);
 }
 
-std::string frame_count(std::size_t frames) {
-    return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
-}
-
 void keyframe_rows(Ctx& c, const Region& region, const MatteSource& matte) {
-    info_row(c, "Keyframes", std::to_string(matte.keyframes.size()));
+    // In one row, so that nothing below it moves with the first correction.
+    const std::size_t parts = matte.confirmed.size();
+    const std::string keys = std::to_string(matte.keyframes.size()) +
+                             (parts > 0 ? ", " + std::to_string(parts) + " in part" : "");
+    info_row(c, "Keyframes", keys,
+             parts > 0 ? "In part: frames on which parts of the matte are confirmed or corrected"
+                       : nullptr);
     const float half = std::floor((ImGui::GetContentRegionAvail().x - c.theme.gap) * 0.5f);
     const bool key_here = matte.keyframes.contains(c.view.frame);
     const bool part_here = !key_here && matte.confirmed.contains(c.view.frame);
@@ -64,10 +66,6 @@ void keyframe_rows(Ctx& c, const Region& region, const MatteSource& matte) {
                 .tip = "Copies the nearest earlier keyframe's matte to this frame",
                 .width = -1}))
         c.emit(CopyKeyframe{std::prev(before)->first, c.view.frame});
-    // Always there, so that nothing below it moves with the first correction.
-    info_row(c, "Confirmed in part",
-             matte.confirmed.empty() ? "none" : frame_count(matte.confirmed.size()),
-             "Frames on which parts of the matte are confirmed or corrected");
 }
 
 void matte_source_card(Ctx& c, const Region& region) {
