@@ -96,6 +96,7 @@ void ReflectanceGatherer::add(const SurfaceSample& s, const ImageF2& ref_from_cu
     part.box = mapped_box(s, ref_from_cur);
     if (part.box.empty()) return;
     downscale_ = s.downscale;
+    part.printed = s.print.confidence;
     part.marks = surface_pattern(painted_luma(s), undecided_luma(s), s.weight, pattern_px()).marks;
     part.luma = part.paint = part.weight = ImageF1(part.box.size());
     // A splat is a scatter: one thread, so that sums come in one order.
@@ -228,6 +229,8 @@ ClipReflectance ReflectanceGatherer::finish() {
                      [](float w) { return w > 0; })) {
         return {};
     }
+    for (const Part& part : parts_)
+        still.print.confidence = std::max(still.print.confidence, part.printed);
     auto [light, pattern] = log_shading(still, options_);
     out.value = difference_of(still.luma, light, out.confidence);
     out.presence = pattern.presence;

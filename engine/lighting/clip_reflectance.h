@@ -45,6 +45,7 @@ class ReflectanceGatherer {
         ImageF1 weight;
         float level = 0;  // ln light that the whole frame has beyond others
         PrintedMarks marks;
+        float printed = 0;  // SurfacePrint::confidence
     };
     template <typename Value>
     [[nodiscard]] ImageF1 over_time(const Recti& box, std::array<std::ptrdiff_t, 2> share,

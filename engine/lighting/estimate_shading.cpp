@@ -15,6 +15,7 @@
 #include "engine/lighting/reflectance.h"
 #include "engine/lighting/shading.h"
 #include "engine/lighting/surface_pattern.h"
+#include "engine/lighting/surface_print.h"
 #include "engine/lighting/surface_sample.h"
 
 namespace weft {
@@ -45,6 +46,8 @@ constexpr float kStillRange = 0.25f, kStillRemains = 0.25f;  // for light from a
 
 // On a surface without pattern: of the blur of a patterned one, and of that in rolling guidance.
 constexpr float kPlainSigma = 0.25f, kPlainRollingSigma = 0.8f;
+// Of a print's pattern, what its paints tell: the rest are its edges.
+constexpr float kToldOfPrint = 0.5f;
 // Small pixels: a filter is no narrower than one, or than what keeps a plain surface's wrinkles if
 // the pattern's size is many pixels; else what is as fine may be paint.
 constexpr float kFewPixels = 2.0f, kManyPixels = 5.0f;
@@ -93,9 +96,11 @@ float mixed(float plain, float patterned, float presence) {
 // Rolling guidance (Zhang et al. 2014, eq. 5): the blur removes the pattern; filtering the
 // unblurred luma with that result as the guide restores the edges of wider structures. Across the
 // marks on a plain ground the light is that of the ground.
-LogShading without_pattern(const ImageF1& painted, const ImageF1& luma, const ImageF1& weight,
-                           float pattern_px) {
-    SurfacePattern pattern = surface_pattern(painted, luma, weight, pattern_px);
+LogShading without_pattern(const SurfaceSample& sample, float pattern_px) {
+    const ImageF1 luma = undecided_luma(sample);
+    const ImageF1& weight = sample.weight;
+    SurfacePattern pattern = surface_pattern(painted_luma(sample), luma, weight, pattern_px);
+    pattern.presence *= 1 - kToldOfPrint * sample.print.confidence;
     const ImageF1& ground = pattern.ground;
     const float sigma = kPatternSigma * pattern_px * mixed(kPlainSigma, 1, pattern.presence);
     const ImageF1 weighted_luma = weighted(luma, ground);
@@ -147,6 +152,23 @@ ImageF1 form_of(const ImageF1& still, const ImageF1& weight) {
     return form;
 }
 
+// Where several paints have one colour, or one paint several, a relation between colour and
+// lightness tells little; a print's own paints tell all. What looks like the sky's light there is
+// one of them.
+void tell_by_print(SurfaceSample& sample) {
+    const SurfacePrint& print = sample.print;
+    if (!(print.confidence > 0)) return;
+    const PrintedPaint printed = printed_paint(sample, print);
+    const auto mix = [&](ImageF1& plane, const ImageF1& told) {
+        for (std::size_t i = 0; i < plane.size_bytes() / sizeof(float); ++i)
+            plane.data()[i] += print.confidence * (told.data()[i] - plane.data()[i]);
+    };
+    mix(sample.paint, printed.luma);
+    mix(sample.weight, printed.weight);
+    for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
+        sample.daylight.data()[i] *= 1 - print.confidence;
+}
+
 // pattern_px in pixels of the downscaled picture.
 float small_pattern(const SurfaceSample& sample, const ShadingOptions& options) {
     return std::max(1.0f, options.pattern_px / static_cast<float>(sample.downscale));
@@ -163,13 +185,14 @@ SurfaceSample light_sample(ViewF3 linear, ViewU8x1 visible, const ShadingOptions
         sample.paint = std::move(cues.paint);
         sample.daylight = std::move(cues.light);
         sample.evidence = cues.evidence;
+        sample.print = options.print ? *options.print : find_print(sample);
+        tell_by_print(sample);
     }
     return sample;
 }
 
 LogShading log_shading(const SurfaceSample& sample, const ShadingOptions& options) {
-    LogShading light = without_pattern(painted_luma(sample), undecided_luma(sample), sample.weight,
-                                       small_pattern(sample, options));
+    LogShading light = without_pattern(sample, small_pattern(sample, options));
     for (std::size_t i = 0; i < sample.daylight.size_bytes() / sizeof(float); ++i)
         light.value.data()[i] += sample.daylight.data()[i];
     return light;

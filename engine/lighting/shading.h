@@ -6,6 +6,7 @@
 #include "engine/core/image.h"
 #include "engine/lighting/daylight.h"
 #include "engine/lighting/surface_pattern.h"
+#include "engine/lighting/surface_print.h"
 #include "engine/lighting/surface_sample.h"
 
 namespace weft {
@@ -37,6 +38,8 @@ struct ShadingOptions {
     bool chromaticity = true;
     /// The shot's sun and sky. Empty: from the plate itself.
     std::optional<Daylight> daylight = {};
+    /// The print on the surface, as one frame of the shot shows it. Empty: from the plate itself.
+    std::optional<SurfacePrint> print = {};
 };
 
 /// The plate's shading: H/d × W/d, d the downscale (rounded up), linear light, > 0 everywhere;

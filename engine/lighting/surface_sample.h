@@ -3,6 +3,7 @@
 
 #include "engine/core/image.h"
 #include "engine/lighting/daylight.h"
+#include "engine/lighting/surface_print.h"
 
 namespace weft {
 
@@ -16,9 +17,10 @@ struct SurfaceSample {
     ImageF1 red_green;   ///< ln((R + floor) / (G + floor)): near black it turns neutral.
     ImageF1 blue_green;  ///< ln((B + floor) / (G + floor)).
     DaylightEvidence evidence = {};  ///< Of this frame and, ever less, of those before.
-    float floor = 0;                 ///< Added before the logarithm: damps black; linear light.
-    int downscale = 1;               ///< Side of one pixel here, in plate pixels.
-    Size full;                       ///< Size of the plate.
+    SurfacePrint print = {};  ///< By which paint was told; of a stored sample its confidence.
+    float floor = 0;          ///< Added before the logarithm: damps black; linear light.
+    int downscale = 1;        ///< Side of one pixel here, in plate pixels.
+    Size full;                ///< Size of the plate.
 };
 
 /// Size of the small picture.

@@ -161,6 +161,7 @@ Bytes encode(const SurfaceSample& s) {
         .value(s.downscale)
         .value(s.box)
         .value(s.floor)
+        .value(s.print.confidence)
         .raw(luma.data(), luma.size() * sizeof luma[0])
         .raw(paint.data(), paint.size() * sizeof paint[0])
         .raw(daylight.data(), daylight.size() * sizeof daylight[0])
@@ -317,9 +318,9 @@ Expected<StillSurface> decode_still_surface(const Bytes& bytes) {
 Expected<SurfaceSample> decode_light_sample(const Bytes& bytes) {
     ByteReader reader(bytes);
     SurfaceSample s;
-    reader.value(s.full).value(s.downscale).value(s.box).value(s.floor);
+    reader.value(s.full).value(s.downscale).value(s.box).value(s.floor).value(s.print.confidence);
     if (!reader.ok() || !sane(s.full) || s.downscale < 1 || s.downscale > kLargestSide ||
-        !(s.floor >= 0)) {
+        !(s.floor >= 0) || !(s.print.confidence >= 0 && s.print.confidence <= 1)) {
         return damaged("light");
     }
     if (s.box.empty()) return s;

@@ -5,9 +5,9 @@
 
 namespace weft {
 
-/// What the estimate of a surface's light keeps from frame to frame: the shot's daylight, and how
-/// far the surface's colours go with it. Frames come from the primary reference to the end, then
-/// from it to the beginning. For one thread.
+/// What the estimate of a surface's light keeps from frame to frame: the shot's daylight, how far
+/// the surface's colours go with it, and the surface's print. Frames come from the primary
+/// reference to the end, then from it to the beginning. For one thread.
 class SurfaceLight {
   public:
     /// `working`: the plate in linear light. `visible`: the region's matte without holdouts.
@@ -17,6 +17,7 @@ class SurfaceLight {
   private:
     std::optional<Daylight> daylight_;  // of the first frame, with the evidence of the last
     DaylightEvidence at_primary_;
+    std::optional<SurfacePrint> print_;  // of the first frame that shows the surface
     bool went_back_ = false;
 };
 
