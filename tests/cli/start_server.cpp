@@ -4,10 +4,8 @@
 // (start_request.h) and lets a copy of the process go on for each. What runs is the program itself,
 // from its first static object on.
 #include <dlfcn.h>
-#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/random.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -39,9 +37,11 @@ void end_at_once(int status, void*) {
 void shift_memory() {
     unsigned short drawn[2] = {};
     if (getrandom(drawn, sizeof drawn, 0) != sizeof drawn) _exit(126);
-    if (!std::malloc(16 + drawn[0] % 65536)) _exit(126);
-    mmap(nullptr, 4096 * (1 + static_cast<std::size_t>(drawn[1] % 1024)), PROT_NONE,
-         MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    static void* volatile kept = nullptr;  // or the compiler leaves it out
+    kept = std::malloc(16 + drawn[0] % 65536);
+    if (!kept) _exit(126);
+    (void)mmap(nullptr, 4096 * (1 + static_cast<std::size_t>(drawn[1] % 1024)), PROT_NONE,
+               MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
 }
 
 void become(const StartRequest& request) {
@@ -52,6 +52,7 @@ void become(const StartRequest& request) {
 
 std::vector<char*> pointers(std::vector<std::string>& words) {
     std::vector<char*> out;
+    out.reserve(words.size() + 1);
     for (std::string& word : words)
         out.push_back(word.data());
     out.push_back(nullptr);
@@ -83,9 +84,11 @@ StartRequest serve(int socket) {
 
 }  // namespace
 
+// The C library's name. NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" int __libc_start_main(Main main, int argc, char** argv, Function init, Function fini,
                                  Function loader_fini, void* stack_end) {
     const auto start = reinterpret_cast<StartMain>(dlsym(RTLD_NEXT, "__libc_start_main"));
+    // One thread. NOLINTNEXTLINE(concurrency-mt-unsafe)
     const char* socket = std::getenv(weft::test::kStartSocket);
     if (!socket) return start(main, argc, argv, init, fini, loader_fini, stack_end);
     // For as long as the process.
