@@ -1,6 +1,7 @@
 # Read by ctest before it runs: makes one test of each suite of a GoogleTest program, which is faster than one of each
-# test by as many starts of the program. The caller sets `program`, `folder`, `name`, `timeout` and `labels`. What a
-# program holds is asked of the program itself, once after each build, so that no suite can be left out.
+# test by as many starts of the program. The caller sets `program`, `folder`, `name`, `timeout`, `labels` and `first`, the
+# suites that start before others. What a program holds is asked of the program itself, once after each build, so that no
+# suite can be left out.
 if(NOT EXISTS "${program}")
     add_test("${name}_not_built" "${program}")
     return()
@@ -27,4 +28,8 @@ foreach(suite IN LISTS suites)
     add_test("${name}.${title}" "${program}" "--gtest_filter=${suite}*")
     set_tests_properties("${name}.${title}" PROPERTIES TIMEOUT "${timeout}" LABELS "${labels}"
         WORKING_DIRECTORY "${folder}")
+    list(FIND first "${title}" place)
+    if(NOT place EQUAL -1)
+        set_tests_properties("${name}.${title}" PROPERTIES COST 10)
+    endif()
 endforeach()

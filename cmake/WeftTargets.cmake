@@ -35,13 +35,17 @@ function(weft_reuse_precompiled name from)
     target_compile_options(weft_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
-# weft_test(NAME SOURCES a_test.cpp … [LIBS dep …] [LABELS full] [OPTIMISED])
+# weft_test(NAME SOURCES a_test.cpp … [LIBS dep …] [LABELS full] [OPTIMISED] [TOGETHER] [FIRST Suite …])
 #   One GoogleTest program per folder, each of its suites one test for ctest. With the label "full" the whole program is
 #   one test instead: listing a program's suites means starting it, and a plain ./test need not start what it will not
 #   run.
 #   OPTIMISED: the tests' own code works for long, such as a search by brute force.
+#   TOGETHER: the whole program is one test, because loading its libraries (OpenImageIO's, 260 of them: 0.3 s) takes
+#   longer than most of its suites.
+#   FIRST: suites that take long. They start before the others, as whole programs do, so that none of them is alone at
+#   the end; ctest knows no times in a fresh clone.
 function(weft_test name)
-    cmake_parse_arguments(ARG "OPTIMISED" "" "SOURCES;LIBS;LABELS" ${ARGN})
+    cmake_parse_arguments(ARG "OPTIMISED;TOGETHER" "" "SOURCES;LIBS;LABELS;FIRST" ${ARGN})
     set(target test_${name})
     add_executable(${target} ${ARG_SOURCES})
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
@@ -54,6 +58,10 @@ function(weft_test name)
     if("full" IN_LIST ARG_LABELS)
         add_test(NAME ${name} COMMAND ${target})
         set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS "${ARG_LABELS}")
+    elseif(ARG_TOGETHER)
+        # Brief: the end of what a failed test printed is shown, and that must be its failures.
+        add_test(NAME ${name} COMMAND ${target} --gtest_brief=1)
+        set_tests_properties(${name} PROPERTIES TIMEOUT 1800 COST 10)
     else()
         set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
         file(GENERATE OUTPUT ${suites} CONTENT "set(program \"$<TARGET_FILE:${target}>\")
@@ -61,6 +69,7 @@ set(folder \"${CMAKE_CURRENT_BINARY_DIR}\")
 set(name \"${name}\")
 set(timeout 1800)
 set(labels \"${ARG_LABELS}\")
+set(first \"${ARG_FIRST}\")
 include(\"${PROJECT_SOURCE_DIR}/cmake/TestSuites.cmake\")
 ")
         set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites})

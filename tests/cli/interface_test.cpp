@@ -129,13 +129,13 @@ INSTANTIATE_TEST_SUITE_P(Interface, EveryCommand, ::testing::ValuesIn(every_comm
 TEST(Interface, ValueErrorsAreInWeftsOwnWords) {
     int refused = 0;
     for (const Words& path : every_command()) {
-        const CommandLine names;
-        for (const std::string& option : long_names(find(names.app, path))) {
+        CommandLine line;  // parses one after the other: to make it takes longer than the parsing
+        for (const std::string& option : long_names(find(line.app, path))) {
             for (const char* value : {"abc", "-1e99", "99999999999999999999"}) {
                 Words words = path;
                 // Missing required options, or unknown ones, run nothing.
                 words.insert(words.end(), {option + "=" + value, "--no-such-option"});
-                const Error error = CommandLine().refuse(words);
+                const Error error = line.refuse(words);
                 SCOPED_TRACE(joined(words, " ") + ": " + error.text());
                 EXPECT_EQ(error.code, ErrorCode::kUsage);
                 for (const char* theirs :

@@ -6,7 +6,7 @@ import json
 import sys
 import tempfile
 import unittest
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -49,6 +49,13 @@ LIMITS = {
 }
 
 
+@cache
+def followed_texture():
+    """The bytes of the texture that is followed, the same for every surface: drawn once."""
+    with tempfile.TemporaryDirectory(prefix="weft-mini-") as folder:
+        return textures.followed(Path(folder, "followed.png")).read_bytes()
+
+
 class Mini(unittest.TestCase):
     def surface(self, scene, part):
         truth = SurfaceTruth(scene, part)
@@ -60,7 +67,8 @@ class Mini(unittest.TestCase):
         return found
 
     def motion(self, scene, runs, plate, matte):
-        texture = textures.followed(runs.work / "followed.png")
+        texture = runs.work / "followed.png"
+        texture.write_bytes(followed_texture())
         shared = (*matte, "--plane", texture)
         _, frames, _ = runs.render("followed", plate, (*shared, *UNTOUCHED, "--quality", "draft"))
         said = runs("measured", "measure", "--result", frames, "--plate", plate, *shared, "--motion",

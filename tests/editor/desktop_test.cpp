@@ -47,7 +47,7 @@ class Painting : public Desktop {
     void SetUp() override {
         Desktop::SetUp();
         if (IsSkipped()) return;
-        pid_ = start(sandbox_, {"edit", "--demo"}, display_);
+        pid_ = start(sandbox_, without_library({"edit", "--demo"}), display_);
         if (!wait_for_window()) {
             ::kill(pid_, SIGKILL);
             const Finished done = finish(sandbox_, std::exchange(pid_, -1));

@@ -138,7 +138,8 @@ struct Started {
 Started start_painting(const Sandbox& sandbox, const std::string& script, int strokes) {
     std::ofstream(sandbox.in("script.json")) << script;
     Started out;
-    out.pid = start(sandbox, {"edit", "--script", sandbox.in("script.json"), "--size", "960x600"});
+    out.pid = start(sandbox, without_library({"edit", "--script", sandbox.in("script.json"),
+                                              "--size", "960x600"}));
     out.ready = painted(sandbox, out.pid, strokes);
     return out;
 }

@@ -29,6 +29,11 @@ Sandbox::~Sandbox() {
     fs::remove_all(folder_, error);
 }
 
+std::vector<std::string> without_library(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--db", "/proc/no library"});
+    return arguments;
+}
+
 pid_t start(const Sandbox& sandbox, const std::vector<std::string>& arguments,
             const std::string& display) {
     std::vector<std::string> environment;

@@ -28,6 +28,11 @@ struct Finished {
     int code = -1;  ///< Exit code; −signal when it was killed.
     std::string errors;
 };
+
+/// `arguments` and a texture library that cannot be there: an editor in a new home else makes the
+/// starter textures, two seconds of work in the middle of what is tested.
+std::vector<std::string> without_library(std::vector<std::string> arguments);
+
 /// Starts the program with the sandbox as its home. `display`: of X11, or empty for none.
 [[nodiscard]] pid_t start(const Sandbox& sandbox, const std::vector<std::string>& arguments,
                           const std::string& display = {});

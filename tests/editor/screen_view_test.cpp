@@ -174,8 +174,9 @@ TEST_F(ScreenViews, AreWhatOpenColorIOShows) {
             {"hover": "Top/File"}, {"screenshot": ")"
                << sandbox.in("Halved.png") << R"("}])";
     }
-    const Finished done = run(sandbox, {"edit", sandbox.in("shot"), "--script",
-                                        sandbox.in("script.json"), "--size", "1280x720"});
+    const Finished done =
+        run(sandbox, without_library({"edit", sandbox.in("shot"), "--script",
+                                      sandbox.in("script.json"), "--size", "1280x720"}));
     if (cannot_draw(done)) GTEST_SKIP() << done.errors;
     ASSERT_EQ(done.code, 0) << done.errors;
     double worst = 0, mean = 0;
@@ -198,8 +199,9 @@ TEST_F(ScreenViews, TheConfigsOwnDefaultIsShownAtFirst) {
         << sandbox.in("items.txt") << R"("}, {"key": "Esc"}, {"hover": "Top/File"},
             {"screenshot": ")"
         << sandbox.in("Plain.png") << R"("}])";
-    const Finished done = run(sandbox, {"edit", sandbox.in("shot"), "--script",
-                                        sandbox.in("script.json"), "--size", "1280x720"});
+    const Finished done =
+        run(sandbox, without_library({"edit", sandbox.in("shot"), "--script",
+                                      sandbox.in("script.json"), "--size", "1280x720"}));
     if (cannot_draw(done)) GTEST_SKIP() << done.errors;
     ASSERT_EQ(done.code, 0) << done.errors;
     double worst = 0, mean = 0;

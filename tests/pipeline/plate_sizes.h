@@ -3,7 +3,9 @@
 // must not depend on the size in which its plate is delivered.
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <tuple>
 
 #include "tests/pipeline/memory_shot.h"
 
@@ -15,15 +17,19 @@ constexpr Recti kSurface{120, 70, 520, 300};
 constexpr int kFrames = 3;
 constexpr Vec2 kStep_px{2.4f, -1.1f};
 
-// A faint wall under grain: seen pixel by pixel, nearly a flat fill.
-inline Matte wall_frame(int t, float contrast, float grain_levels) {
+// A faint wall under grain: seen pixel by pixel, nearly a flat fill. Drawn once for all sizes.
+inline const Matte& wall_frame(int t, float contrast, float grain_levels) {
     static const WaveTexture texture(17);
+    static std::map<std::tuple<int, float, float>, Matte> drawn;
+    Matte& frame = drawn[{t, contrast, grain_levels}];
+    if (frame.width() > 0) return frame;
     Rng rng(70 + static_cast<std::uint64_t>(t));
-    return draw(kSmallest, [&](Vec2 p) {
+    frame = draw(kSmallest, [&](Vec2 p) {
         const float value = texture(p - static_cast<float>(t) * kStep_px) - 0.5f;
         const auto grain = static_cast<float>(rng.uniform() + rng.uniform() - 1);
         return 0.5f + contrast * value + grain_levels / 255 * grain;
     });
+    return frame;
 }
 
 // The same picture in another size, bilinear: soft, as large plates are.

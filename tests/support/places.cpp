@@ -22,4 +22,8 @@ std::string fault_shim() {
     return WEFT_FAULT_SHIM;
 }
 
+std::string start_server() {
+    return WEFT_START_SERVER;
+}
+
 }  // namespace weft::test

@@ -16,5 +16,8 @@ namespace weft::test {
 [[nodiscard]] std::string copyright_file();
 /// A library for LD_PRELOAD that fails calls on files (tests/cli/fault_shim.cpp).
 [[nodiscard]] std::string fault_shim();
+/// A library for LD_PRELOAD that makes of the program a server of its starts
+/// (tests/cli/start_server.cpp).
+[[nodiscard]] std::string start_server();
 
 }  // namespace weft::test
