@@ -93,10 +93,11 @@ void MatteChanges::change(std::function<Matte(const Matte&)> change, const std::
                           bool here_only) {
     use_.end_stroke();
     if (!use_.document.is_open() || !use_.target.may_paint()) return;
-    add({use_.target.place(),
-         here_only ? Counts::kPart : Counts::kAll,
-         {label, label + ", "},
-         changed_by(std::move(change))});
+    Change made{use_.target.place(),
+                here_only ? Counts::kPart : Counts::kAll,
+                {label, label + ", "},
+                changed_by(std::move(change))};
+    add(std::move(made));
 }
 
 void MatteChanges::fill(const FillPolygon& action) {
