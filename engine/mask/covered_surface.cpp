@@ -4,10 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <utility>
+#include <vector>
 
+#include "engine/core/median.h"
 #include "engine/core/parallel.h"
 #include "engine/mask/nearest_pixel.h"
+#include "engine/mask/piece_motion.h"
 #include "engine/mask/spread_motion.h"
 
 namespace weft {
@@ -22,32 +26,61 @@ ImageF1 turned_out(ViewF1 phi) {
     return out;
 }
 
-// The motion of what is hidden, over the whole frame, as that of what is seen well inside: beside a
-// boundary measured motion is often that of what passes. 0 outside the area.
-ImageF2 hidden_motion(const GroundStep& step) {
+// Where the surface is seen well inside: beside a boundary measured motion is often that of what
+// passes.
+std::vector<PlacePair> seen_motion(const GroundStep& step) {
     constexpr float kWellInside_px = 8;
-    ImageF2 out(step.frame.size());
-    if (step.area.empty()) return out;
-    ImageF1 weight(step.area.size());
-    Vec2 mean(0);
-    float total = 0;
-    for (int y = 0; y < weight.height(); ++y) {
-        const int fy = step.area.y0 + y;
-        for (int x = 0; x < weight.width(); ++x) {
-            const int fx = step.area.x0 + x;
-            if (step.flow.valid.row(fy)[fx] == 0) continue;
-            if (step.phi.row(fy)[fx] < kWellInside_px * step.unit_px) continue;
-            const float* d = step.flow.d.pixel(fx, fy);
-            weight.at(x, y) = 1;
-            mean += Vec2(d[0], d[1]);
-            total += 1;
+    constexpr int kStep = 2;
+    std::vector<PlacePair> out;
+    for (int y = step.area.y0; y < step.area.y1; y += kStep) {
+        for (int x = step.area.x0; x < step.area.x1; x += kStep) {
+            const bool inside = step.phi.row(y)[x] >= kWellInside_px * step.unit_px;
+            if (inside && step.flow.valid.row(y)[x] != 0) out.push_back(pair_at(step.flow, x, y));
         }
     }
-    const ImageF2 motion = spread_motion(step.flow.d.view().crop(step.area), weight,
-                                         mean / std::max(total, 1.0f), step.unit_px);
-    for (int y = step.area.y0; y < step.area.y1; ++y)
-        std::copy_n(motion.row(y - step.area.y0), 2 * step.area.width(),
-                    out.row(y) + 2 * step.area.x0);
+    return out;
+}
+
+// How far what moves with the surface may be from the plane that fits all of it. On a plain cloth
+// the motion of a hand in front of it is measured far beyond the hand.
+float tolerance_of(const std::vector<PlacePair>& seen, const glm::dmat3& plane, float unit_px) {
+    constexpr float kLeast_px = 1, kTimes = 3;
+    std::vector<float> misses;
+    misses.reserve(seen.size());
+    for (const PlacePair& pair : seen)
+        misses.push_back(glm::length(pair.to - mapped(plane, pair.from)));
+    return std::max(kLeast_px * unit_px, kTimes * median_of(misses, 0.0f));
+}
+
+// The motion of what is hidden, over the whole frame: a plane's, and what those miss of it near by
+// that move with the surface. 0 outside the area.
+ImageF2 hidden_motion(const GroundStep& step) {
+    ImageF2 out(step.frame.size());
+    if (step.area.empty()) return out;
+    const std::vector<PlacePair> seen = seen_motion(step);
+    const glm::dmat3 plane = fit_piece(seen);
+    const float tolerance = tolerance_of(seen, plane, step.unit_px);
+    ImageF2 misses(step.area.size());
+    ImageF1 weight(step.area.size());
+    for (const PlacePair& pair : seen) {
+        const Vec2 miss = pair.to - mapped(plane, pair.from);
+        if (glm::length(miss) > tolerance) continue;
+        const int x = static_cast<int>(pair.from.x) - step.area.x0;
+        const int y = static_cast<int>(pair.from.y) - step.area.y0;
+        weight.at(x, y) = 1;
+        misses.pixel(x, y)[0] = miss.x, misses.pixel(x, y)[1] = miss.y;
+    }
+    const ImageF2 near_by = spread_motion(misses, weight, Vec2(0), step.unit_px);
+    parallel_rows(step.area.height(), 16, [&](int y0, int y1) {
+        for (int y = y0; y < y1; ++y) {
+            for (int x = 0; x < step.area.width(); ++x) {
+                const Vec2i at(step.area.x0 + x, step.area.y0 + y);
+                const float* miss = near_by.pixel(x, y);
+                const Vec2 d = moved_by(plane, Vec2(at)) + Vec2(miss[0], miss[1]);
+                out.pixel(at.x, at.y)[0] = d.x, out.pixel(at.x, at.y)[1] = d.y;
+            }
+        }
+    });
     return out;
 }
 
