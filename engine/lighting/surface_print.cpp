@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <utility>
 
 #include "engine/core/median.h"
 #include "engine/core/parallel.h"
 #include "engine/core/smooth_step.h"
+#include "engine/lighting/fast_math.h"
 #include "engine/lighting/masked_filters.h"
 #include "engine/lighting/masked_statistics.h"
 #include "engine/lighting/surface_sample.h"
@@ -36,9 +37,12 @@ constexpr float kSomeShow = 0.35f, kMostShow = 0.6f;
 constexpr float kColourUnit = 1.5f;  // ln chromaticity counts more than ln luma
 constexpr int kSeedRounds = 8, kShadeRounds = 8;
 constexpr float kFarthest = 0.995f;  // quantile: what is still farther is no paint
-constexpr float kCertain = 0.15f, kLeastCertain = 0.02f, kMixture = 0.25f;
-constexpr float kEdgeOfPaint = 0.2f, kEdgeWeight = 0.1f;  // ln luma
-constexpr std::size_t kMostSamples = 20000;
+// Deviations: of places that are certainly of a paint, and of those that may be of several.
+constexpr float kCertain = 0.15f, kMixture = 0.25f;
+constexpr float kLeastCertain = 0.02f;  // weight of all others
+constexpr float kEdgeOfPaint = 0.2f;    // ln luma
+constexpr float kEdgeWeight = 0.1f;
+constexpr std::size_t kMostSamples = 20000;  // places that the paints are found from
 
 using Feature = std::array<float, 3>;
 
@@ -64,33 +68,27 @@ int tile_side(const SurfaceSample& sample) {
     return std::max(kLeastTile, static_cast<int>(std::sqrt(area) / kTilesAcross));
 }
 
-struct Deviations {
-    double within = 0, all = 0, lightness = 0;
-};
+double variance(const std::vector<Feature>& places, std::size_t from, std::size_t to,
+                std::size_t k) {
+    double sum = 0, sum2 = 0;
+    for (std::size_t i = from; i < to; ++i)
+        sum += places[i][k], sum2 += static_cast<double>(places[i][k]) * places[i][k];
+    const double n = static_cast<double>(to - from), mean = sum / n;
+    return std::max(0.0, sum2 / n - mean * mean);
+}
 
-// Of chromaticity among places of one lightness, of all of it, and of lightness.
-Deviations deviations_of(std::vector<Feature>& places) {
-    std::sort(places.begin(), places.end());
-    const auto variance = [&](std::size_t from, std::size_t to, std::size_t k) {
-        double sum = 0, sum2 = 0;
-        for (std::size_t i = from; i < to; ++i)
-            sum += places[i][k], sum2 += static_cast<double>(places[i][k]) * places[i][k];
-        const double n = static_cast<double>(to - from), mean = sum / n;
-        return std::max(0.0, sum2 / n - mean * mean);
-    };
+// Sorts them by lightness, where what costs nothing does not tell already.
+bool shows_print(std::vector<Feature>& places) {
     const std::size_t n = places.size();
+    const double all = std::sqrt(variance(places, 0, n, 1) + variance(places, 0, n, 2));
+    if (all <= kColours || std::sqrt(variance(places, 0, n, 0)) <= kLightness) return false;
+    std::sort(places.begin(), places.end());
     double within = 0;
     for (std::size_t step = 0; step < kSteps; ++step) {
         const std::size_t from = n * step / kSteps, to = n * (step + 1) / kSteps;
-        within += (variance(from, to, 1) + variance(from, to, 2)) / kSteps;
+        within += (variance(places, from, to, 1) + variance(places, from, to, 2)) / kSteps;
     }
-    return {std::sqrt(within), std::sqrt(variance(0, n, 1) + variance(0, n, 2)),
-            std::sqrt(variance(0, n, 0))};
-}
-
-bool shows_print(std::vector<Feature>& places) {
-    const Deviations d = deviations_of(places);
-    return d.within > kColours && d.within > kOfItsOwn * d.all && d.lightness > kLightness;
+    return std::sqrt(within) > kColours && std::sqrt(within) > kOfItsOwn * all;
 }
 
 // The share of the tiles that show a print, as a confidence.
@@ -201,12 +199,12 @@ Painted painted_by(const SurfaceSample& s, const std::vector<Feature>& paints,
                 float sum = 0, total = 0;
                 for (const Feature& paint : paints) {
                     const float share =
-                        std::exp((least - distance2(paint, at)) / (2 * kMixture * kMixture));
+                        fast_exp((least - distance2(paint, at)) / (2 * kMixture * kMixture));
                     sum += share * paint[0], total += share;
                 }
                 out.luma.row(y)[x] = sum / total;
                 out.sure.row(y)[x] =
-                    weight * (kLeastCertain + std::exp(-least / (2 * kCertain * kCertain)));
+                    weight * (kLeastCertain + fast_exp(-least / (2 * kCertain * kCertain)));
             }
         }
     });

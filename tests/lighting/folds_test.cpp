@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -14,7 +13,9 @@
 namespace weft {
 namespace {
 
-using Colour = std::array<float, 3>;
+using scene::cloth;
+using scene::Colour;
+using scene::scaled;
 
 const Recti kCloth{20, 16, 300, 224};
 constexpr int kEdge = 8;  // pixels beside the outline that are not judged
@@ -33,24 +34,6 @@ float fold_light(int x, int y) {
 
 bool on_line(int y) {
     return y % 34 < 4;
-}
-
-template <class Paint>
-ImageF3 cloth(const Paint& paint) {
-    ImageF3 out(scene::kSize);
-    for (int y = 0; y < out.height(); ++y) {
-        for (int x = 0; x < out.width(); ++x) {
-            const Colour colour = paint(x, y);
-            std::copy(colour.begin(), colour.end(), out.pixel(x, y));
-        }
-    }
-    return out;
-}
-
-Colour scaled(Colour colour, float by) {
-    for (float& c : colour)
-        c *= by;
-    return colour;
 }
 
 Shading light_on(const ImageF3& plate) {

@@ -2,6 +2,7 @@
 // A wall of bricks under a light that is known: what the tests of the estimate look at.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/core/image.h"
@@ -34,6 +35,27 @@ inline ImageF3 plate(float exposure = 1, int shadow_x = 120) {
         }
     }
     return p;
+}
+
+using Colour = std::array<float, 3>;
+
+/// Each pixel's colour by `paint(x, y)`, linear light.
+template <class Paint>
+ImageF3 cloth(const Paint& paint) {
+    ImageF3 out(kSize);
+    for (int y = 0; y < out.height(); ++y) {
+        for (int x = 0; x < out.width(); ++x) {
+            const Colour colour = paint(x, y);
+            std::copy(colour.begin(), colour.end(), out.pixel(x, y));
+        }
+    }
+    return out;
+}
+
+inline Colour scaled(Colour colour, float by) {
+    for (float& c : colour)
+        c *= by;
+    return colour;
 }
 
 inline Matte box_matte(const Recti& box, Size size = kSize) {

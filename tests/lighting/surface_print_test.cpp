@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-using Colour = std::array<float, 3>;
+using scene::Colour;
 
 const Recti kShirt{20, 16, 300, 224};
 constexpr int kInside = 10;  // pixels beside the outline that are not judged
@@ -31,13 +31,14 @@ Colour woven(const Colour& warp, const Colour& weft) {
     return out;
 }
 
-// Threads of teal, white, black and red over a period of 36 px.
+// Threads of teal, white, black and red over a period of 54 px: wider than what a blur of the
+// pattern's size averages out.
 Colour thread(int at) {
-    const int k = at % 36;
-    if (k < 12) return {0.03f, 0.32f, 0.22f};
-    if (k < 17) return {0.75f, 0.72f, 0.70f};
-    if (k < 25) return {0.02f, 0.02f, 0.025f};
-    if (k < 31) return {0.55f, 0.10f, 0.09f};
+    const int k = at % 54;
+    if (k < 18) return {0.03f, 0.32f, 0.22f};
+    if (k < 26) return {0.75f, 0.72f, 0.70f};
+    if (k < 38) return {0.02f, 0.02f, 0.025f};
+    if (k < 47) return {0.55f, 0.10f, 0.09f};
     return {0.70f, 0.62f, 0.66f};
 }
 
@@ -51,16 +52,9 @@ float luma_of(const Colour& c) {
 
 template <class Paint>
 ImageF3 shirt(const Paint& paint, float exposure = 1) {
-    ImageF3 out(scene::kSize);
-    for (int y = 0; y < out.height(); ++y) {
-        for (int x = 0; x < out.width(); ++x) {
-            const Colour colour = paint(x, y);
-            for (int c = 0; c < 3; ++c)
-                out.at(x, y, c) =
-                    exposure * colour[static_cast<std::size_t>(c)] * std::exp(fold_of(x, y));
-        }
-    }
-    return out;
+    return scene::cloth([&](int x, int y) {
+        return scene::scaled(paint(x, y), exposure * std::exp(fold_of(x, y)));
+    });
 }
 
 // The share of what was found for ln light that goes with the folds, and with the checks: slopes of
@@ -101,11 +95,11 @@ TEST(SurfacePrint, ChecksArePaintAndFoldsAreLight) {
     const ImageF3 plate = shirt(check);
     const auto [folds, checks] = folds_and_checks(estimate_shading(plate, matte(), {}));
     EXPECT_GT(folds, 0.85);
-    EXPECT_LT(std::abs(checks), 0.05);
+    EXPECT_LT(std::abs(checks), 0.04);
     ShadingOptions without;
     without.print = SurfacePrint{};
     const auto blotched = folds_and_checks(estimate_shading(plate, matte(), without));
-    EXPECT_GT(blotched.second, 0.025) << "a colour's relation to lightness leaves them";
+    EXPECT_GT(blotched.second, 0.1) << "a colour's relation to lightness leaves them";
 }
 
 // Found once for the shot, it holds in a frame that is exposed otherwise.
@@ -118,7 +112,7 @@ TEST(SurfacePrint, HoldsThroughAFlash) {
     const Shading bright = estimate_shading(shirt(check, 3), matte(), options);
     const auto [folds, checks] = folds_and_checks(bright);
     EXPECT_GT(folds, 0.85);
-    EXPECT_LT(std::abs(checks), 0.05);
+    EXPECT_LT(std::abs(checks), 0.04);
     EXPECT_NEAR(median_shading(bright, matte()) / median_shading(dim, matte()), 3, 0.1);
 }
 

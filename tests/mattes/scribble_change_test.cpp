@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "app/mattes/scribble_matte.h"
+#include "tests/mattes/filled.h"
 
 namespace weft {
 namespace {
@@ -30,11 +31,7 @@ ImageU8x3 vest_and_hand() {
 }
 
 Matte area(const Recti& of) {
-    Matte out(kShot);
-    for (int y = of.y0; y < of.y1; ++y)
-        for (int x = of.x0; x < of.x1; ++x)
-            out.at(x, y) = 255;
-    return out;
+    return test::filled(of, kShot);
 }
 
 Matte without(Matte from, const Recti& hole) {

@@ -5,6 +5,8 @@
 
 #include <cstdlib>
 
+#include "tests/mattes/filled.h"
+
 namespace weft {
 namespace {
 
@@ -27,11 +29,7 @@ ImageU8x3 plate(const Recti& surface = kSurface) {
 }
 
 Matte filled(const Recti& area) {
-    Matte out(kPlate);
-    for (int y = area.y0; y < area.y1; ++y)
-        for (int x = area.x0; x < area.x1; ++x)
-            out.at(x, y) = 255;
-    return out;
+    return test::filled(area, kPlate);
 }
 
 // Share of pixels that differ by more than half, in per cent.
