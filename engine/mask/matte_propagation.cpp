@@ -46,7 +46,7 @@ MatteWalker::MatteWalker(ViewU8x3 frame, ViewU8x1 key, const MatteOptions& optio
                                            own_places(frame.size()),
                                            scale,
                                            BackgroundPlate(frame, known),
-                                           SurfacePalette(frame, known),
+                                           SurfacePalette(frame, known, scale.band_px),
                                            options,
                                            1.0f,
                                            {},

@@ -17,6 +17,7 @@ constexpr float kForeignShare = 6e-4f;     // what was not seen at all is more o
 constexpr float kMostOdds = 4;
 constexpr float kFrameWeight = 0.1f;  // weight of a frame against those before
 constexpr float kKeyClearancePx = 2;
+constexpr int kRimWeight = 1, kDeepWeight = 8;  // of a painted pixel
 
 int cell_of(const std::uint8_t* c) {
     constexpr int kShift = 8 - kBits;
@@ -41,28 +42,29 @@ std::vector<float> blurred_shares(const std::vector<float>& shares) {
 
 }  // namespace
 
-SurfacePalette::SurfacePalette(ViewU8x3 frame, ViewF1 phi)
+SurfacePalette::SurfacePalette(ViewU8x3 frame, ViewF1 phi, float rim_px)
     : inside_(kCells), outside_(kCells), odds_(kCells) {
-    count(frame, phi, kKeyClearancePx, 0);
+    count(frame, phi, {kKeyClearancePx, rim_px}, 0);
     tabulate();
 }
 
 void SurfacePalette::follow(ViewU8x3 frame, ViewF1 phi, float core_px) {
-    count(frame, phi, core_px, 1 - kFrameWeight);
+    count(frame, phi, {core_px, core_px}, 1 - kFrameWeight);
     tabulate();
 }
 
-void SurfacePalette::count(ViewU8x3 frame, ViewF1 phi, float clearance_px, float keep) {
+void SurfacePalette::count(ViewU8x3 frame, ViewF1 phi, const Depths& depths, float keep) {
     std::array<std::vector<std::int32_t>, 2> counts{std::vector<std::int32_t>(kCells),
                                                     std::vector<std::int32_t>(kCells)};
     std::array<std::int64_t, 2> total{0, 0};
     for (int y = 0; y < frame.height(); ++y) {
         const float* p = phi.row(y);
         for (int x = 0; x < frame.width(); ++x) {
-            if (std::abs(p[x]) < clearance_px) continue;
+            if (std::abs(p[x]) < depths.counted_px) continue;
             const std::size_t side = p[x] > 0 ? 0 : 1;
-            ++counts[side][static_cast<std::size_t>(cell_of(frame.pixel(x, y)))];
-            ++total[side];
+            const int weight = side == 0 && p[x] < depths.sure_px ? kRimWeight : kDeepWeight;
+            counts[side][static_cast<std::size_t>(cell_of(frame.pixel(x, y)))] += weight;
+            total[side] += weight;
         }
     }
     for (const std::size_t side : {0, 1}) {

@@ -10,8 +10,10 @@ namespace weft {
 
 class SurfacePalette {
   public:
-    /// From the keyframe: the colours inside and outside of `phi`, away from its zero line.
-    SurfacePalette(ViewU8x3 frame, ViewF1 phi);
+    /// From the keyframe: the colours inside and outside of `phi`, away from its zero line. People
+    /// paint loosely, and a bit of a hand that is painted with a cushion must not make hands the
+    /// cushion's: within `rim_px` inside colours count an eighth of what deeper ones do.
+    SurfacePalette(ViewU8x3 frame, ViewF1 phi, float rim_px = 0);
 
     /// Adds the colours of a later frame at the inner pixels of the found shape, so that the
     /// palette follows the light.
@@ -24,7 +26,11 @@ class SurfacePalette {
     [[nodiscard]] float own_odds(float share) const;
 
   private:
-    void count(ViewU8x3 frame, ViewF1 phi, float clearance_px, float keep);
+    // How far from the zero line a pixel counts, and inside counts in full.
+    struct Depths {
+        float counted_px, sure_px;
+    };
+    void count(ViewU8x3 frame, ViewF1 phi, const Depths& depths, float keep);
     void tabulate();
 
     std::vector<float> inside_, outside_;  // shares by cell of the RGB cube

@@ -30,11 +30,18 @@ class PassingHand {
                 out.at(x, y) = on_hand(x, y, t) ? 0 : 255;
         return out;
     }
+    // As somebody paints it who does not look: a strip of the chin is in it.
+    [[nodiscard]] Matte painted_loosely() const {
+        Matte out = jacket(0);
+        for (int y = kChin - 20; y < kCollar; ++y)
+            std::fill(out.row(y) + 86, out.row(y) + 134, std::uint8_t{255});
+        return out;
+    }
     [[nodiscard]] ImageU8x3 frame(int t) const {
         ImageU8x3 out(kSize);
         for (int y = 0; y < out.height(); ++y) {
             for (int x = 0; x < out.width(); ++x) {
-                const bool face = y < kCollar - 8 && std::abs(x - 110) < 26;
+                const bool face = y < kChin && std::abs(x - 110) < 26;
                 const bool hand = on_hand(x, y, t);
                 const Vec3 cloth(188, 184, 176), wall(192, 189, 184), skin(186, 128, 98);
                 const Vec3 base = hand || face ? skin : y >= kCollar ? cloth : wall;
@@ -69,7 +76,7 @@ class PassingHand {
     }
 
   private:
-    static constexpr int kCollar = 70;
+    static constexpr int kCollar = 70, kChin = 62;
     static constexpr float kRadius_px = 24;
 
     // Up by 14 px a frame, and down again.
@@ -79,26 +86,38 @@ class PassingHand {
     }
 };
 
+// How much of the hand a matte has, where enough of it is seen.
+double taken_of_hand(const PassingHand& clip, int t, const Matte& found) {
+    double hand = 0, taken = 0;
+    for (int y = 0; y < found.height(); ++y) {
+        for (int x = 0; x < found.width(); ++x) {
+            if (!clip.on_hand(x, y, t)) continue;
+            hand += 1;
+            taken += found.at(x, y) > 127 ? 1 : 0;
+        }
+    }
+    return hand > 400 ? taken / hand : 0;
+}
+
 TEST(PassingHand, IsCutOutAndGivesTheJacketBack) {
     const PassingHand clip;
     MatteWalker walker(clip.frame(0), clip.jacket(0));
     for (int t = 1; t <= PassingHand::kEnd; ++t) {
         const Matte found = walker.advance(clip.frame(t), clip.motion(t)).matte;
         const Matte truth = clip.jacket(t);
-        double hand = 0, covered = 0;
-        for (int y = 0; y < found.height(); ++y) {
-            for (int x = 0; x < found.width(); ++x) {
-                if (!clip.on_hand(x, y, t)) continue;
-                hand += 1;
-                covered += found.at(x, y) > 127 ? 1 : 0;
-            }
-        }
-        if (hand > 400) {
-            EXPECT_LT(covered / hand, 0.15) << t;
-        }
+        EXPECT_LT(taken_of_hand(clip, t, found), 0.15) << t;
         if (t > PassingHand::kGone + 2) {
             EXPECT_GT(test::overlap(found, truth), 0.985) << t;
         }
+    }
+}
+
+TEST(PassingHand, IsCutOutThoughALittleSkinWasPaintedWithTheJacket) {
+    const PassingHand clip;
+    MatteWalker walker(clip.frame(0), clip.painted_loosely());
+    for (int t = 1; t < PassingHand::kGone; ++t) {
+        const Matte found = walker.advance(clip.frame(t), clip.motion(t)).matte;
+        EXPECT_LT(taken_of_hand(clip, t, found), 0.15) << t;
     }
 }
 
