@@ -58,6 +58,9 @@ EditorApp::EditorApp(const EditorOptions& options)
                                                                      : options_.texture_library);
     shell_->act_now = [this](const std::vector<Action>& all) { session_->act_now(all); };
     shell_->job_log = [this](int id) { return session_->job_log(id); };
+    shell_->notify = [this](NoticeKind kind, std::string text) {
+        session_->notify(kind, std::move(text));
+    };
     shell_->dismiss_notice = [this](int id) { session_->dismiss(id); };
 }
 

@@ -140,7 +140,6 @@ struct DrawerState {
     bool together = false;       ///< Suggests sets for all regions.
     std::vector<RegionId> kept;  ///< Regions that keep their texture in a set.
     int together_first = 0;      ///< First set shown.
-    bool large_shown = false, large_pending = false;  ///< Large preview: shown; about to open.
 };
 
 /// A folder of textures to add.

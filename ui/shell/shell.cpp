@@ -137,6 +137,7 @@ std::vector<Action> Shell::draw(const SessionView& view) {
           recording_ ? &items_ : nullptr,
           job_log,
           dismiss_notice,
+          notify,
           act_now,
           {}};
     const bool sheet = state_.palette_open || state_.shortcuts_open || state_.leave_asked ||
