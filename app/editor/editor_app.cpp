@@ -134,8 +134,16 @@ void EditorApp::watch() const {
     std::fprintf(stderr, "weft: %s\n", clock_.text().c_str());
 }
 
+bool EditorApp::waits() const {
+    return session_->busy() || shell_->waiting() || pictures_.pending();
+}
+
+bool EditorApp::works_long() const {
+    return session_->works_long();
+}
+
 bool EditorApp::idle() const {
-    return !session_->busy() && !shell_->waiting() && !pictures_.pending();
+    return !waits() && !works_long();
 }
 
 std::uint64_t EditorApp::changes() const {
