@@ -158,7 +158,6 @@ std::vector<Action> Shell::draw(const SessionView& view) {
         (state_.workspace == Workspace::kLight ||
          (state_.workspace == Workspace::kTexture && view.strip.kind == StripKind::kSuggested));
     if (view.strip.kind != StripKind::kNone && !strip_seen) c.emit(ShowStrip{});
-    ui::learn_from_jobs(c);
     ui::notices(c);
     ui::tour(c);
     ui::history_window(c);
