@@ -99,6 +99,23 @@ TEST_F(SteadyPanels, TheButtonsOfPropagationStayWhereTheyAre) {
     EXPECT_EQ(top_of("Propagation/Pause"), pause);
 }
 
+TEST_F(SteadyPanels, SuggestedKeyframesComeAndGoInTheirPlace) {
+    paint_key();
+    for (const char* workspace : {"Motion", "Mask"}) {
+        go(workspace, Tool::kPan);
+        const std::string below =
+            workspace == std::string("Motion") ? "Pin texture" : "Freeze and export";
+        view.to_correct.clear();
+        const float before = top_of(below);
+        for (int k = 0; k < 5; ++k) {
+            view.to_correct.push_back({1002 + k, CorrectionHint::Kind::kMatte, 0.3f});
+            EXPECT_EQ(top_of(below), before) << k;
+        }
+        EXPECT_TRUE(there("Hints/Hint 1004"));
+        EXPECT_FALSE(there("Hints/Hint 1005")) << "the timeline shows it";
+    }
+}
+
 TEST_F(SteadyPanels, TheCardsOfASmallWindowSayWhatTheyWaitFor) {
     ImGui::GetIO().DisplaySize = {1280, 720};
     shell->state().strip = StripKind::kKeyframes;

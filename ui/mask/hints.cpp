@@ -39,6 +39,9 @@ const char* tip_of(CorrectionHint::Kind kind) {
     return "";
 }
 
+// The best ones; the timeline marks all of them.
+constexpr std::size_t kShown = 3;
+
 }  // namespace
 
 std::string no_hints_text(const SessionView& view) {
@@ -53,9 +56,12 @@ void hints_section(Ctx& c, bool mattes_only) {
     std::vector<CorrectionHint> shown;
     for (const CorrectionHint& hint : v.to_correct)
         if (!mattes_only || hint.kind == CorrectionHint::Kind::kMatte) shown.push_back(hint);
-    if (mattes_only && shown.empty()) return;
     if (!section(c, "Suggested keyframes", true)) return;
     const PanelName panel(c, "Hints");
+    if (shown.size() > kShown) shown.resize(kShown);
+    // They go with every change and come back with the analysis: what is below stays where it is.
+    const float top = ImGui::GetCursorPosY();
+    const float row = c.theme.row + ImGui::GetStyle().ItemSpacing.y;
     if (shown.empty()) wrapped(c, no_hints_text(v), c.theme.quiet);
     for (const CorrectionHint& hint : shown) {
         ImGui::PushID(hint.frame);
@@ -71,6 +77,7 @@ void hints_section(Ctx& c, bool mattes_only) {
         c.note("Hint " + std::to_string(hint.frame));
         ImGui::PopID();
     }
+    ImGui::SetCursorPosY(top + static_cast<float>(kShown) * row);
     section_gap(c);
 }
 
