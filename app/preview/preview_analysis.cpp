@@ -19,14 +19,10 @@ ShotPlan plan_for(const OpenedShot& opened, std::vector<int> frames) {
 
 }  // namespace
 
-int steps_to(const OpenedShot& opened, std::vector<int> frames) {
+int steps_to(const OpenedShot& opened, std::vector<int> frames, bool anew) {
     const ShotPlan plan = plan_for(opened, std::move(frames));
+    if (anew) return static_cast<int>(count_analysis_steps(plan, MemoryAnalysisStore()));
     return static_cast<int>(count_analysis_steps(plan, *opened.store));
-}
-
-int steps_in_all(const OpenedShot& opened, std::vector<int> frames) {
-    const ShotPlan plan = plan_for(opened, std::move(frames));
-    return static_cast<int>(count_analysis_steps(plan, MemoryAnalysisStore()));
 }
 
 std::optional<int> stored_layer(const Region& region, int layer) {
@@ -140,7 +136,7 @@ void Preview::Impl::analyse_loop() {
             shared->analysis_cancel = token;
             shared->analysing_key = work->analysis;
         }
-        const int left = steps_to(*work, all), total = std::max(left, steps_in_all(*work, all));
+        const int left = steps_to(*work, all), total = std::max(left, steps_to(*work, all, true));
         round = {total, total - left, total - left, Clock::now()};
         if (left > 0) show_steps(*work, 0);
         if (!first.empty()) propagate_to(*work, first.front(), token);

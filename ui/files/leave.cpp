@@ -75,6 +75,34 @@ void begin_question(Ctx& c, const char* title, const std::string& text, bool& op
     ImGui::Dummy({0, gap});
 }
 
+// The answers to the questions return true if they mean to leave now.
+bool save_answers(Ctx& c) {
+    if (button(c, "Save", {.look = Look::kPrimary})) {
+        if (c.view.path.empty()) {
+            c.state.leave_asked = false;
+            c.commands.run("file.save", c);
+        } else {
+            c.emit(Save{});
+            c.state.leave_when_saved = true;
+        }
+    }
+    ImGui::SameLine();
+    return button(c, "Don't save");
+}
+
+bool render_answers(Ctx& c) {
+    const bool keep = button(c, "Keep rendering", {.look = Look::kPrimary});
+    ImGui::SameLine();
+    if (!button(c, "Cancel render", {.look = Look::kDanger})) return keep;
+    for (const JobView& job : c.view.jobs)
+        if (own(c, job)) c.emit(CommandJob{job.id, JobCommand::kCancel});
+    return true;
+}
+
+bool leave_answer(Ctx& c) {
+    return button(c, "Leave", {.look = Look::kDanger});
+}
+
 }  // namespace
 
 void leave_for(Ctx& c, const LeaveFor& what) {
@@ -114,29 +142,7 @@ void leave_question(Ctx& c) {
                        open);
     else
         begin_question(c, "Leave now?", ends, open);
-    if (modified) {
-        if (button(c, "Save", {.look = Look::kPrimary})) {
-            if (c.view.path.empty()) {
-                c.state.leave_asked = false;
-                c.commands.run("file.save", c);
-            } else {
-                c.emit(Save{});
-                c.state.leave_when_saved = true;
-            }
-        }
-        ImGui::SameLine();
-        if (button(c, "Don't save")) go();
-    } else if (!rendering) {
-        if (button(c, "Leave", {.look = Look::kDanger})) go();
-    } else {
-        if (button(c, "Keep rendering", {.look = Look::kPrimary})) go();
-        ImGui::SameLine();
-        if (button(c, "Cancel render", {.look = Look::kDanger})) {
-            for (const JobView& job : c.view.jobs)
-                if (own(c, job)) c.emit(CommandJob{job.id, JobCommand::kCancel});
-            go();
-        }
-    }
+    if (modified ? save_answers(c) : rendering ? render_answers(c) : leave_answer(c)) go();
     ImGui::SameLine();
     if (button(c, "Cancel") || !open) {
         c.state.leave_asked = false;

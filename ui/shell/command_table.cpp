@@ -7,7 +7,6 @@
 #include "ui/base/commands.h"
 #include "ui/base/ctx.h"
 #include "ui/base/icons.h"
-#include "ui/mask/mask.h"
 #include "ui/motion/motion.h"
 #include "ui/shell/command_parts.h"
 #include "ui/viewer/compare.h"
@@ -42,20 +41,6 @@ void add_region(Ctx& c) {
     // What it needs first is a matte.
     set_workspace(c.state, Workspace::kMask);
     if (c.state.tool == Tool::kPan) c.state.tool = Tool::kBrush;
-}
-
-// The frame where a look pays most; from there the next one, around.
-void go_to_suggested(Ctx& c) {
-    const std::vector<CorrectionHint>& all = c.view.to_correct;
-    if (all.empty()) {
-        if (c.notify) c.notify(NoticeKind::kInfo, ui::no_hints_text(c.view));
-        return;
-    }
-    const auto here = std::find_if(all.begin(), all.end(), [&](const CorrectionHint& hint) {
-        return hint.frame == c.view.frame;
-    });
-    const bool goes_on = here != all.end() && here + 1 != all.end();
-    c.emit(GoToFrame{goes_on ? (here + 1)->frame : all.front().frame});
 }
 
 void add_edit_commands(std::vector<Command>& out) {
@@ -226,7 +211,7 @@ void add_time_commands(std::vector<Command>& out) {
     add("time.next_key", "Next keyframe", icons::kChevronRight, "Shift+Right",
         [](Ctx& c) { c.emit(StepKeyframe{1}); });
     out.push_back(command("time.suggested", "Time", "Next suggested frame", icons::kBrush,
-                          "Ctrl+Right", go_to_suggested, has_plate));
+                          "Ctrl+Right", ui::go_to_suggested, has_plate));
     add("time.keys", "Show keys and curves", icons::kKeyframe, "Ctrl+Shift+K",
         [](Ctx& c) { c.state.keys.open = !c.state.keys.open; });
     add("time.first", "First frame", icons::kSkipPrevious, "Home",

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/base/render_speed.h"
 #include "app/project/codec/project_file.h"
 #include "app/project/validate.h"
-#include "app/render/render_estimate.h"
 
 namespace weft {
 namespace {
