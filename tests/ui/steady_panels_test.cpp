@@ -1,4 +1,6 @@
 // Nothing moves under the pointer when something becomes known, and no text is clipped.
+#include <algorithm>
+#include <cfloat>
 #include <chrono>
 #include <filesystem>
 #include <thread>
@@ -79,6 +81,28 @@ TEST_F(SteadyPanels, WhatATextureIsTakenForMovesNothing) {
     EXPECT_EQ(top_of("Placement/Scale"), before);
 }
 
+TEST_F(SteadyPanels, NothingMovesWhenASurfaceHasBeenGathered) {
+    go("Texture", Tool::kPan);
+    view.selected = view.project.regions[0]->id;
+    view.paint_programs = {{"Krita", "krita", ".ora"}, {"GIMP", "gimp", ".ora"}};
+    const float before = top_of("Placement/Scale");
+    view.flattening = FlattenView{view.selected, WorkStage::kWait, 100, 118, 94};
+    EXPECT_EQ(top_of("Placement/Scale"), before);
+    clear();
+    ASSERT_TRUE(robot->click("Cancel gathering"));
+    EXPECT_THAT(emitted<StopPaintFlat>(), SizeIs(1));
+}
+
+TEST_F(SteadyPanels, WhatAFormIsFoundFromMovesNothing) {
+    go("Texture", Tool::kPan);
+    view.selected = view.project.regions[0]->id;
+    view.preview.forms.clear();
+    const float before = top_of("Cylinder");
+    view.preview.forms[view.selected] =
+        "Flat, because neither motion nor lines tell its form well enough";
+    EXPECT_EQ(top_of("Cylinder"), before);
+}
+
 TEST_F(SteadyPanels, TheButtonsOfPropagationStayWhereTheyAre) {
     paint_key();
     go("Mask", Tool::kBrush);
@@ -153,6 +177,55 @@ TEST_F(SteadyPanels, TheNextSuggestedFrameSaysThatThereIsNone) {
     robot->key("Ctrl+Right");
     ASSERT_THAT(said, SizeIs(2));
     EXPECT_EQ(said[1], "No frame needs a keyframe.");
+}
+
+TEST_F(SteadyPanels, ThePictureStaysWhereItIsWhenARenderIsMeasured) {
+    go("Review", Tool::kPan);
+    view.report = {};
+    robot->frames(2);
+    const float before = robot->find("Viewer/Canvas")->max.y;
+    view.report.state = QualityReport::State::kDone;
+    for (int frame : {1001, 1002, 1003}) {
+        view.report.rows.emplace_back();
+        view.report.rows.back().frame = frame;
+    }
+    robot->frames(2);
+    EXPECT_EQ(robot->find("Viewer/Canvas")->max.y, before);
+}
+
+TEST_F(SteadyPanels, NothingInTheStatusBarIsWrittenOverSomethingElse) {
+    view.jobs.resize(1);
+    view.jobs[0] = {};
+    view.jobs[0].id = 12;
+    view.jobs[0].state = JobState::kRunning;
+    view.jobs[0].stage = WorkStage::kWait;
+    view.jobs[0].done = 117;
+    view.jobs[0].total = 117;
+    view.preview.analysing = true;
+    view.preview.done = 1;
+    view.preview.total = 2;
+    robot->frames(2);
+    const DrawnItem* analysis = robot->find("Status: Analysing 50%");
+    ASSERT_NE(analysis, nullptr);
+    const auto& items = shell->items();
+    const auto job = std::find_if(items.begin(), items.end(), [](const DrawnItem& item) {
+        return item.name.find("Status: Job 12") != std::string::npos;
+    });
+    ASSERT_NE(job, items.end());
+    const std::string text = job->name.substr(job->name.find("Job 12"));
+    const ImFont* font = shell->theme().small;
+    EXPECT_LT(job->min.x + font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str()).x,
+              analysis->min.x);
+}
+
+TEST_F(SteadyPanels, AMovieThatIsOpenedSaysHowFarItIsRead) {
+    view.plate = {};
+    view.plate.state = PlateView::State::kOpening;
+    view.plate.path = "/shots/long.mov";
+    view.plate_picture.reset();
+    EXPECT_TRUE(there("Opening the plate…"));
+    view.plate.counted = 1234;
+    EXPECT_TRUE(there("Counting the movie's frames: 1234"));
 }
 
 TEST_F(SteadyPanels, WhatIsTypedInADialogThatOpensIsAPath) {

@@ -258,11 +258,10 @@ void Shell::layout(Ctx& c) {
         panels && state_.workspace == Workspace::kLight && !(four && screen.y / t.scale < 1100);
     const bool sheet = strip && state_.sheet();
     const float least_view = t.px(120);
-    float extra_h =
-        drawer   ? t.px(state_.drawer_h)
-        : report ? t.px(c.view.report.state == QualityReport::State::kDone ? state_.review_h : 196)
-        : strip  ? t.px(sheet ? state_.sheet_h : state_.strip_h)
-                 : 0;
+    float extra_h = drawer   ? t.px(state_.drawer_h)
+                    : report ? t.px(state_.review_h)
+                    : strip  ? t.px(sheet ? state_.sheet_h : state_.strip_h)
+                             : 0;
     // By default the picture keeps more than half of the height; the user may enlarge the panels.
     const UiState fresh;
     const float room = std::max(0.0f, body_h - timeline_h - least_view);

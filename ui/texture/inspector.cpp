@@ -62,8 +62,8 @@ void bricks_controls(Ctx& c) {
     }
     double count = c.state.measured_count;
     if (slider(c,
-               {.label = "Repeats along line",
-                .tip = "How many bricks, tiles or stitches the line covers",
+               {.label = "Repeats",
+                .tip = "How many bricks, tiles or stitches lie along the line",
                 .min = 1,
                 .max = 40,
                 .standard = 4,
