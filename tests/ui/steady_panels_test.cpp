@@ -53,10 +53,20 @@ TEST_F(SteadyPanels, TheTexturesStayWhereTheyAreWhenOneIsSelected) {
     const DrawnItem* card = robot->find("Textures/Plank20");
     ASSERT_NE(card, nullptr);
     const ImVec2 before = card->min;
+    // That of the region until one is selected.
+    view.selected = view.project.regions[0]->id;
+    view.path = (folder / "shot.weft").string();
+    view.project.regions[0] = view.project.regions[0].with([](Region& r) {
+        r.texture = {};
+        r.texture.sample = "wood/plank12.png";
+    });
+    ASSERT_TRUE(there("Large/Apply to region"));
+    EXPECT_FALSE(robot->find("Large/Apply to region")->enabled) << "it has that one";
     ASSERT_TRUE(robot->click("Textures/Plank20"));
     for (int k = 0; k < 60; ++k)
         robot->frames(1);
-    EXPECT_TRUE(there("Large/Apply to region"));
+    ASSERT_TRUE(there("Large/Apply to region"));
+    EXPECT_TRUE(robot->find("Large/Apply to region")->enabled);
     card = robot->find("Textures/Plank20");
     ASSERT_NE(card, nullptr);
     EXPECT_EQ(card->min.x, before.x);

@@ -1,6 +1,7 @@
 // The texture drawer: library, suggestions and large preview.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 #include <unordered_map>
 
@@ -266,22 +267,25 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     ImGui::EndChild();
 }
 
-// The texture that the region has already.
-bool has_texture(const Region* region, const TextureCard& card) {
-    if (!region || !region->texture.plane.empty() || region->texture.sample.empty()) return false;
+// The region's texture as its card names it; empty: it has none.
+std::string own_texture(const Ctx& c) {
+    const Region* region = c.view.selected_region();
+    if (!region || !region->texture.plane.empty() || region->texture.sample.empty()) return {};
     const std::string& sample = region->texture.sample;
-    return sample == card.path || library_name_of(sample) == card.path;
+    if (std::string library = library_name_of(sample); !library.empty()) return library;
+    const std::filesystem::path project = c.view.path;
+    return std::filesystem::absolute(project.parent_path() / sample).lexically_normal().string();
 }
 
-// The selected texture, else that of the region; null: neither is in the library.
+// The selected texture, else that of the region; null: neither is listed.
 const TextureCard* large_card(const Ctx& c, const std::vector<TextureCard>& cards) {
-    const Region* region = c.view.selected_region();
-    const TextureCard* own = nullptr;
+    const std::string own = own_texture(c);
+    const TextureCard* found = nullptr;
     for (const TextureCard& card : cards) {
         if (card.path == c.state.drawer.picked) return &card;
-        if (!own && has_texture(region, card)) own = &card;
+        if (card.path == own) found = &card;
     }
-    return own;
+    return found;
 }
 
 void large_texture(Ctx& c, const TextureCard& card) {
@@ -325,8 +329,7 @@ void large_texture(Ctx& c, const TextureCard& card) {
     if (button(c, "Apply to region",
                {.icon = icons::kCheck,
                 .look = Look::kPrimary,
-                .enabled = c.view.selected_region() != nullptr &&
-                           !has_texture(c.view.selected_region(), card),
+                .enabled = c.view.selected_region() != nullptr && card.path != own_texture(c),
                 .width = -1}))
         c.emit(ApplyTexture{card.path, 0});
 }
