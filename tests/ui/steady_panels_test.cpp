@@ -58,7 +58,7 @@ TEST_F(SteadyPanels, TheTexturesStayWhereTheyAreWhenOneIsSelected) {
     view.path = (folder / "shot.weft").string();
     view.project.regions[0] = view.project.regions[0].with([](Region& r) {
         r.texture = {};
-        r.texture.sample = "wood/plank12.png";
+        r.texture.sample = "other/not listed.png";
     });
     ASSERT_TRUE(there("Large/Apply to region"));
     EXPECT_FALSE(robot->find("Large/Apply to region")->enabled) << "it has that one";

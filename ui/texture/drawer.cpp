@@ -277,15 +277,16 @@ std::string own_texture(const Ctx& c) {
     return std::filesystem::absolute(project.parent_path() / sample).lexically_normal().string();
 }
 
-// The selected texture, else that of the region; null: neither is listed.
-const TextureCard* large_card(const Ctx& c, const std::vector<TextureCard>& cards) {
-    const std::string own = own_texture(c);
-    const TextureCard* found = nullptr;
+// The selected texture, else that of the region, which need not be listed; no path: neither.
+TextureCard large_card(Ctx& c, const std::vector<TextureCard>& cards) {
+    TextureCard own;
+    own.path = own_texture(c);
+    if (!own.path.empty()) own.name = c.textures.name_of_texture(own.path);
     for (const TextureCard& card : cards) {
-        if (card.path == c.state.drawer.picked) return &card;
-        if (card.path == own) found = &card;
+        if (card.path == c.state.drawer.picked) return card;
+        if (card.path == own.path) own = card;
     }
-    return found;
+    return own;
 }
 
 void large_texture(Ctx& c, const TextureCard& card) {
@@ -324,7 +325,8 @@ void large_texture(Ctx& c, const TextureCard& card) {
     const TextureCard known = c.textures.details(card);
     std::string facts = known.material;
     if (!known.author.empty()) facts += " · " + known.author;
-    facts += " · " + (known.licence.empty() ? "licence not stated" : known.licence);
+    facts += (facts.empty() ? "" : " · ") +
+             (known.licence.empty() ? "licence not stated" : known.licence);
     quiet(c, facts.c_str());
     if (button(c, "Apply to region",
                {.icon = icons::kCheck,
@@ -334,15 +336,15 @@ void large_texture(Ctx& c, const TextureCard& card) {
         c.emit(ApplyTexture{card.path, 0});
 }
 
-void large(Ctx& c, const TextureCard* card, ImVec2 size) {
+void large(Ctx& c, const TextureCard& card, ImVec2 size) {
     const Theme& t = c.theme;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(10), t.px(8)});
     ImGui::BeginChild("Large", size, true,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
     ImGui::PopStyleVar();
     const PanelName name(c, "Large");
-    if (card)
-        large_texture(c, *card);
+    if (!card.path.empty())
+        large_texture(c, card);
     else
         empty_state(c, icons::kTexture, "No texture selected", "Click one to see it large here.");
     ImGui::EndChild();
