@@ -58,6 +58,9 @@ EditorApp::EditorApp(const EditorOptions& options)
                                                                      : options_.texture_library);
     shell_->act_now = [this](const std::vector<Action>& all) { session_->act_now(all); };
     shell_->job_log = [this](int id) { return session_->job_log(id); };
+    shell_->notify = [this](NoticeKind kind, std::string text) {
+        session_->notify(kind, std::move(text));
+    };
     shell_->dismiss_notice = [this](int id) { session_->dismiss(id); };
 }
 
@@ -131,8 +134,16 @@ void EditorApp::watch() const {
     std::fprintf(stderr, "weft: %s\n", clock_.text().c_str());
 }
 
+bool EditorApp::waits() const {
+    return session_->busy() || shell_->waiting() || pictures_.pending();
+}
+
+bool EditorApp::works_long() const {
+    return session_->works_long();
+}
+
 bool EditorApp::idle() const {
-    return !session_->busy() && !shell_->waiting() && !pictures_.pending();
+    return !waits() && !works_long();
 }
 
 std::uint64_t EditorApp::changes() const {

@@ -35,7 +35,11 @@ class EditorApp {
     [[nodiscard]] Shell& shell() { return *shell_; }
     [[nodiscard]] GlPictures& pictures() { return pictures_; }
     [[nodiscard]] const EditorSettings& settings() const { return settings_; }
-    /// Returns true if the window may sleep until the next event.
+    /// Returns true while the next frames are to show something that is in progress.
+    [[nodiscard]] bool waits() const;
+    /// As Session's.
+    [[nodiscard]] bool works_long() const;
+    /// Neither of them.
     [[nodiscard]] bool idle() const;
     [[nodiscard]] std::uint64_t changes() const;
     [[nodiscard]] bool wants_to_leave() { return shell_->state().leave; }

@@ -14,7 +14,7 @@ struct WindowMoment {
     bool event = false;         ///< Input or exposure since the last frame.
     bool at_hand = false;       ///< A button is down, input waits, or the shot is played.
     bool busy = false;          ///< Something is being worked on, or a text is being typed.
-    bool passing = false;       ///< Something is shown that goes by itself.
+    bool passing = false;       ///< Something is shown that goes by itself, or takes long.
     std::uint64_t changes = 0;  ///< Of what is shown.
 };
 
@@ -30,7 +30,8 @@ class FramePace {
 
     double drawn_s_ = 0, event_s_ = -1;
     std::uint64_t seen_ = 0;
-    int left_ = 3;  // ImGui needs a few frames to settle after an event
+    bool settles_ = false;  // after a change
+    int left_ = 3;          // ImGui needs a few frames to settle after an event
 };
 
 }  // namespace weft

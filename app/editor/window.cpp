@@ -167,8 +167,9 @@ WindowMoment moment_of(EditorApp& app, const InputQueue& input) {
     WindowMoment out;
     out.now_s = glfwGetTime();
     out.at_hand = ImGui::IsAnyMouseDown() || any_key_down() || input.pending() || view.playing != 0;
-    out.busy = ImGui::IsAnyItemActive() || !app.idle();
-    out.passing = std::any_of(view.notices.begin(), view.notices.end(),
+    out.busy = ImGui::IsAnyItemActive() || app.waits();
+    out.passing = app.works_long() ||
+                  std::any_of(view.notices.begin(), view.notices.end(),
                               [](const Notice& n) { return n.kind != NoticeKind::kError; });
     out.changes = app.changes();
     return out;

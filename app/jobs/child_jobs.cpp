@@ -201,6 +201,10 @@ void ChildJobs::remove(int id) {
     });
 }
 
+void ChildJobs::forget_estimate(int id) {
+    command(id, [](JobRecord& record) { record.estimated_s = 0; });
+}
+
 void ChildJobs::move(int id, int direction) {
     const std::string name = name_of(id);
     command_all([name, direction](std::vector<JobRecord>& records) {

@@ -46,6 +46,8 @@ class ChildJobs {
     void retry(int id);
     /// Removes a finished job from the list.
     void remove(int id);
+    /// The estimate was compared with the time that the job took.
+    void forget_estimate(int id);
     /// Moves a job that waits before the one that waits before it (−1), or after the next (1).
     void move(int id, int direction);
     void cancel_all();

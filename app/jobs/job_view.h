@@ -36,7 +36,7 @@ struct JobView {
     int newest_frame = 0;     ///< 0: none yet.
     bool has_frame = false;
     double elapsed_s = 0, left_s = 0, frames_per_minute = 0;
-    /// As submitted by this process; 0 after a pause or retry, when it no longer holds.
+    /// As submitted; 0 after a pause or retry, when it no longer holds, and once it was compared.
     double estimated_s = 0;
     PicturePtr thumbnail;  ///< Thumbnail of the newest frame.
     std::string log_path, movie;

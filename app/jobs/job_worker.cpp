@@ -87,7 +87,7 @@ void show_record(const JobRecord& record, const JobFiles& files, JobView& view) 
     view.error = record.error;
     view.problem = record.problem;
     view.log_path = files.log;
-    view.estimated_s = view.mine ? record.estimated_s : 0;
+    view.estimated_s = record.estimated_s;
     if (record.state == JobState::kWaiting) {
         view.stage.reset();
         view.done = 0;

@@ -7,9 +7,10 @@
 namespace weft {
 namespace {
 
-Expected<OpenedPlate> opened(const Plate& plate) {
+Expected<OpenedPlate> opened(const Plate& plate, const std::shared_ptr<std::atomic<int>>& counted) {
     OpenedPlate out;
-    WEFT_TRY(reader, open_plate(plate.path, {plate.layer, plate.movie_start, plate.pixel_aspect}));
+    WEFT_TRY(reader,
+             open_plate(plate.path, {plate.layer, plate.movie_start, plate.pixel_aspect, counted}));
     out.reader = reader;
     out.space = plate.space.empty() ? reader->color().space : plate.space;
     WEFT_TRY(space, parse_color_space(out.space));
@@ -26,7 +27,9 @@ bool PlateOpener::open(const Plate& plate) {
     if (asked_ == plate) return false;
     asked_ = plate;
     if (opening_.valid()) abandoned_.push_back(std::move(opening_));
-    if (!plate.path.empty()) opening_ = in_background([plate] { return opened(plate); });
+    counted_ = std::make_shared<std::atomic<int>>(0);
+    if (!plate.path.empty())
+        opening_ = in_background([plate, counted = counted_] { return opened(plate, counted); });
     return true;
 }
 

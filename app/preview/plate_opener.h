@@ -1,6 +1,7 @@
 #pragma once
 // Opens plates in the background.
 
+#include <atomic>
 #include <future>
 #include <memory>
 #include <optional>
@@ -31,6 +32,8 @@ class PlateOpener {
     void forget() { asked_.reset(); }
     /// Returns true while a plate is being opened.
     [[nodiscard]] bool busy() const { return opening_.valid(); }
+    /// How many frames of a movie have been counted so far.
+    [[nodiscard]] int counted() const { return counted_ ? counted_->load() : 0; }
     /// The plate, or the error, once after it has been opened. Errors: those of open_plate() and of
     /// the colour space.
     [[nodiscard]] std::optional<Expected<OpenedPlate>> take();
@@ -38,6 +41,7 @@ class PlateOpener {
   private:
     std::optional<Plate> asked_;
     std::future<Expected<OpenedPlate>> opening_;
+    std::shared_ptr<std::atomic<int>> counted_;  // also by who counts for an abandoned one
     std::vector<std::future<Expected<OpenedPlate>>> abandoned_;
 };
 

@@ -19,8 +19,9 @@ ShotPlan plan_for(const OpenedShot& opened, std::vector<int> frames) {
 
 }  // namespace
 
-int steps_to(const OpenedShot& opened, std::vector<int> frames) {
+int steps_to(const OpenedShot& opened, std::vector<int> frames, bool anew) {
     const ShotPlan plan = plan_for(opened, std::move(frames));
+    if (anew) return static_cast<int>(count_analysis_steps(plan, MemoryAnalysisStore()));
     return static_cast<int>(count_analysis_steps(plan, *opened.store));
 }
 
@@ -97,7 +98,8 @@ void Preview::Impl::show_steps(const OpenedShot& work, int more) {
     shown.analysing = true;
     shown.done = done;
     shown.total = round.total;
-    if (done > 2) shown.seconds_left = seconds_since(round.start) / done * (round.total - done);
+    const int here = done - round.begun;
+    if (here > 2) shown.seconds_left = seconds_since(round.start) / here * (round.total - done);
     changed(*shared);
     ++mattes;
     signal(*shared);
@@ -134,8 +136,9 @@ void Preview::Impl::analyse_loop() {
             shared->analysis_cancel = token;
             shared->analysing_key = work->analysis;
         }
-        round = {steps_to(*work, all), 0, Clock::now()};
-        if (round.total > 0) show_steps(*work, 0);
+        const int left = steps_to(*work, all), total = std::max(left, steps_to(*work, all, true));
+        round = {total, total - left, total - left, Clock::now()};
+        if (left > 0) show_steps(*work, 0);
         if (!first.empty()) propagate_to(*work, first.front(), token);
         // Analyse the visible frame first, unless that is nearly all of the work.
         const int for_first = steps_to(*work, first), for_all = steps_to(*work, all);

@@ -57,8 +57,8 @@ struct KeptProvisional {
     ProvisionalFrame made;
 };
 
-/// Number of frames that must still be analysed for these frames.
-[[nodiscard]] int steps_to(const OpenedShot& opened, std::vector<int> frames);
+/// Number of frames that must still be analysed for these frames; `anew`: if nothing were yet.
+[[nodiscard]] int steps_to(const OpenedShot& opened, std::vector<int> frames, bool anew = false);
 
 /// The layer number under which the analysis stores the matte of a layer (matte_layer.h): painted
 /// holdouts are counted among themselves. Nothing: not stored.
@@ -148,9 +148,9 @@ struct Preview::Impl {
 
     std::atomic<bool> render_paused = false;
 
-    // Of the analysis being made, also what it takes from others; for its thread.
+    // Of the analysis being made, also what it takes from others, and `begun`, which was there.
     struct Round {
-        int total = 0, done = 0;
+        int total = 0, done = 0, begun = 0;
         Clock::time_point start = Clock::now();
     };
     Round round;

@@ -103,9 +103,4 @@ RenderEstimate estimate_render(const EstimateInputs& in) {
     return out;
 }
 
-double calibrated_speed(double speed, double estimated_s, double took_s) {
-    if (!(estimated_s > 0) || !(took_s > 0)) return speed;
-    return std::clamp(speed * std::sqrt(estimated_s / took_s), 0.05, 20.0);
-}
-
 }  // namespace weft

@@ -27,7 +27,7 @@ struct EstimateInputs {
     std::string_view extension;  ///< Extension of the output: "png", "exr", …
     bool layers = false;         ///< EXR layers are written too.
     unsigned threads = 2;
-    double speed = 1;  ///< Speed relative to the measured machine, as calibrated_speed().
+    double speed = 1;  ///< Speed relative to the measured machine (app/base/render_speed.h).
     /// What the analysis will take by a run of it that is on its way, s; 0: none is.
     double analysis_s = 0;
 };
@@ -43,9 +43,5 @@ void count_regions(const Project& project, EstimateInputs& in);
 /// Time and disk within a factor of about two, memory within about a quarter; on the CPU.
 /// Calibrated with clips timed on two cores (docs/BENCHMARKS.md). Pure.
 [[nodiscard]] RenderEstimate estimate_render(const EstimateInputs& in);
-
-/// `speed` after a render estimated at `estimated_s` took `took_s`: half of the correction (on a
-/// logarithmic scale), between 1/20 and 20. Pure.
-[[nodiscard]] double calibrated_speed(double speed, double estimated_s, double took_s);
 
 }  // namespace weft

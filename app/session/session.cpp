@@ -31,6 +31,10 @@ bool Session::busy() const {
     return parts_->busy();
 }
 
+bool Session::works_long() const {
+    return parts_->works_long();
+}
+
 std::uint64_t Session::changes() const {
     return parts_->changes();
 }

@@ -45,6 +45,9 @@ class Session {
     [[nodiscard]] const SessionView& view() const;
     /// Returns true if something is in progress, so that the window must keep drawing.
     [[nodiscard]] bool busy() const;
+    /// Returns true while something goes on for minutes and is followed by update(), such as a
+    /// measurement: a frame now and then shows how far it has come.
+    [[nodiscard]] bool works_long() const;
     /// Increases with every change that a worker reports; wakes a sleeping window.
     [[nodiscard]] std::uint64_t changes() const;
     void dismiss(int notice);

@@ -47,8 +47,8 @@ Session::Parts::Parts(SessionOptions options, EditorSettings* settings)
       flat_painting_({document_, plate_, shelf_, tasks_, notices_, settings_,
                       options_.paint_programs, [this] { end_painting(); }, options_.program,
                       options_.state_folder}),
-      renders_({document_, plate_, trust_, shelf_, tasks_, notices_, [this] { end_painting(); },
-                options_.program, options_.state_folder}),
+      renders_({document_, plate_, trust_, shelf_, tasks_, notices_, settings_,
+                [this] { end_painting(); }, options_.program, options_.state_folder}),
       measurement_({document_, selection_, plate_, preview_, notices_, shutdowns_}) {
     screens_.look();
 }
@@ -118,7 +118,11 @@ void Session::Parts::flush() {
 bool Session::Parts::busy() const {
     return playback_.direction() != 0 || painting_.active() || changes_.busy() || trial_.busy() ||
            textures_.busy() || plate_.opening() || !tasks_.empty() || preview_desk_.pending() ||
-           strip_.busy() || measurement_.busy() || flat_painting_.busy();
+           strip_.busy();
+}
+
+bool Session::Parts::works_long() const {
+    return measurement_.busy() || flat_painting_.busy();
 }
 
 std::uint64_t Session::Parts::changes() const {

@@ -58,6 +58,7 @@ class Session::Parts final : private DocumentFollower {
     void update(double now_s);
     [[nodiscard]] const SessionView& view() const { return view_; }
     [[nodiscard]] bool busy() const;
+    [[nodiscard]] bool works_long() const;
     [[nodiscard]] std::uint64_t changes() const;
     void dismiss(int notice) { notices_.dismiss(notice); }
     void notify(NoticeKind kind, std::string text) { notices_.add(kind, std::move(text)); }

@@ -43,6 +43,7 @@ struct PlateView {
     double fps = 24;
     double pixel_aspect = 1;  ///< Pixel aspect ratio from the files.
     std::vector<int> frames;
+    int counted = 0;  ///< Frames of a movie that have been counted, while it is opened.
     std::size_t cached_bytes = 0, budget_bytes = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // Reads plates: numbered images and movies behind one interface, decoded frame by frame on demand.
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -34,6 +35,9 @@ struct ReadOptions {
     int movie_start = 1001;
     /// Width of a pixel over its height, whatever the files say; empty: as they say.
     std::optional<double> pixel_aspect = {};
+    /// How many frames of a movie have been counted so far, for who waits for it; null: nobody
+    /// does.
+    std::shared_ptr<std::atomic<int>> counted = {};
 };
 
 /// A plate. read() may be called from several threads; a movie serialises them inside.

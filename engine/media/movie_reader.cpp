@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdio>
 #include <deque>
@@ -202,12 +203,13 @@ class MoviePlate final : public FrameReader {
 };
 
 // Containers are unreliable about their number of frames, so frames are counted. `frame`: the
-// first.
+// first. `counted`: see ReadOptions.
 Status count_frames(MovieDecoder& decoder, const AVFrame* frame, const std::string& path,
-                    MovieFacts& facts) {
+                    std::atomic<int>* counted, MovieFacts& facts) {
     FramePacing pacing;
     MovieFields fields;
     for (; frame; frame = decoder.next(), ++facts.frames) {
+        if (counted) *counted = facts.frames + 1;
         fields.add(*frame);
         if (frame->best_effort_timestamp == AV_NOPTS_VALUE)
             pacing.add_unknown();
@@ -264,7 +266,7 @@ Expected<std::shared_ptr<const FrameReader>> open_movie_plate(const std::string&
     facts.pixel_aspect = decoder.pixel_aspect();
     facts.high_dynamic_range =
         frame->color_trc == AVCOL_TRC_SMPTE2084 || frame->color_trc == AVCOL_TRC_ARIB_STD_B67;
-    WEFT_CHECK_OK(count_frames(decoder, frame, path, facts));
+    WEFT_CHECK_OK(count_frames(decoder, frame, path, options.counted.get(), facts));
     return std::make_shared<MoviePlate>(path, options.movie_start, facts);
 }
 

@@ -45,6 +45,26 @@ TEST(FramePace, DrawsAtOnceOnAnEventAndRestsAfterIt) {
     EXPECT_TRUE(pace.draws(moment));
 }
 
+// Frames that are decoded, mattes that are propagated: hundreds a second are a few on the screen.
+TEST(FramePace, ShowsWhatWorkersChangeTenTimesASecond) {
+    FramePace pace;
+    WindowMoment moment;
+    moment.now_s = 10;
+    (void)frames_in_two_seconds(pace, moment);
+    int frames = 0;
+    for (moment.now_s = 20; moment.now_s < 22; moment.now_s += 0.005) {
+        ++moment.changes;
+        frames += pace.draws(moment);
+    }
+    EXPECT_GE(frames, 15);
+    EXPECT_LE(frames, 21);
+    frames = 0;
+    for (; moment.now_s < 24; moment.now_s += 0.005)
+        frames += pace.draws(moment);
+    EXPECT_GE(frames, 1) << "the last change, laid out";
+    EXPECT_LE(frames, 2);
+}
+
 // Nobody has to move the mouse for it.
 TEST(FramePace, TakesAwayWhatGoesByItself) {
     FramePace pace;

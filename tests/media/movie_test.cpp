@@ -118,7 +118,9 @@ TEST_F(Movie, FramesInAnyOrder) {
     write("a.mkv", {96, 64}, 30);
     ReadOptions options;
     options.movie_start = -3;
+    options.counted = std::make_shared<std::atomic<int>>(0);
     const auto plate = open_plate(in("a.mkv"), options).value();
+    EXPECT_EQ(*options.counted, 30);
     for (const int f : {29, 28, 27, 0, 14, 13, 15, 29, 1, 1}) {
         EXPECT_TRUE(plate->read(f - 3).value().rgb == picture({96, 64}, f)) << f;
     }

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <thread>
 
+#include "app/jobs/job_record.h"
+
 namespace weft::test {
 namespace {
 
@@ -83,6 +85,38 @@ TEST(JobDesk, ReportsTheEndOfAJobOnce) {
             EXPECT_TRUE(desk.poll({}, {}).empty());
         EXPECT_TRUE(desk.jobs().empty());
     }
+    fs::remove_all(folder);
+}
+
+// Also of one that was over before the window was opened.
+TEST(JobDesk, ComparesTheTimeOfAJobWithItsEstimateOnce) {
+    const fs::path folder =
+        fs::temp_directory_path() / ("weft_job_times_" + std::to_string(getpid()));
+    fs::create_directories(folder);
+    JobRecord record;
+    record.name = "job_1";
+    record.state = JobState::kDone;
+    record.estimated_s = 100;
+    record.elapsed_s = 25;
+    ASSERT_TRUE(write_job(folder.string(), record));
+    const auto timed = [&](std::chrono::milliseconds patience) {
+        JobDesk desk("/bin/false", folder.string());
+        std::vector<JobDesk::Timed> out;
+        const auto end = std::chrono::steady_clock::now() + patience;
+        while (out.empty() && std::chrono::steady_clock::now() < end) {
+            EXPECT_TRUE(desk.poll({}, {}).empty());
+            out = desk.take_timed();
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        EXPECT_TRUE(desk.poll({}, {}).empty());
+        EXPECT_TRUE(desk.take_timed().empty());
+        return out;
+    };
+    const auto first = timed(std::chrono::minutes(1));
+    ASSERT_EQ(first.size(), 1u);
+    EXPECT_EQ(first[0].estimated_s, 100);
+    EXPECT_EQ(first[0].took_s, 25);
+    EXPECT_TRUE(timed(std::chrono::milliseconds(300)).empty()) << "in the next run";
     fs::remove_all(folder);
 }
 

@@ -192,6 +192,7 @@ TEST_F(PanelTest, FramesThatExistAreSaidBeforeTheyAreRendered) {
     robot->frames(2);
     ASSERT_TRUE(robot->click("Top/Jobs"));
     shell->state().output.output = (folder / "####.png").string();
+    const float button = robot->find("Export/Render frames")->min.y;
     const auto said = [&] {
         for (int frame = 0; frame < 500 && !robot->find("Export/Existing: 2"); ++frame) {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -200,6 +201,7 @@ TEST_F(PanelTest, FramesThatExistAreSaidBeforeTheyAreRendered) {
         return robot->find("Export/Existing: 2") != nullptr;
     };
     EXPECT_TRUE(said());
+    EXPECT_EQ(robot->find("Export/Render frames")->min.y, button) << "while they are written";
     shell->state().output.output = (folder / "none" / "####.png").string();
     robot->frames(2);
     EXPECT_EQ(robot->find("Export/Existing: 2"), nullptr);

@@ -56,6 +56,13 @@ TEST_F(StateLine, SaysThatAMaskIsPaintedOverThePlate) {
     view.preview.done = 1;
     view.preview.total = 4;
     EXPECT_TRUE(shows("Plate  ·  analysing 25%"));
+    // After the first save: the shot is opened again.
+    view.preview = {};
+    view.preview.state = PreviewView::State::kOpening;
+    view.result_current = false;
+    EXPECT_TRUE(shows("Plate  ·  preparing the result…"));
+    view.analysis_paused = true;
+    EXPECT_TRUE(shows("Plate  ·  analysis paused"));
 }
 
 // In a small window the time is worth more than the word.

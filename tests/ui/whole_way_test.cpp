@@ -2,7 +2,11 @@
 // document and the picture.
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <bit>
+#include <chrono>
+#include <limits>
+#include <thread>
 
 #include "app/textures/larger_original.h"
 #include "app/textures/patch_pick.h"
@@ -61,6 +65,58 @@ class WholeWay : public SessionTest {
         return true;
     }
 };
+
+// The first texture is chosen from what it would look like, too.
+TEST_F(WholeWay, SuggestionsAreShownOnARegionWithoutATexture) {
+    open();
+    robot->key("Ctrl+Shift+N");
+    robot->key("B");
+    robot->frames(3);
+    robot->stroke({at(20, 24), at(75, 26), at(75, 44), at(20, 42)});
+    robot->frames(3);
+    session->act(SetPreviewQuality{Quality::kDraft});
+    const auto shows = [&] {
+        const StripView& strip = session->view().strip;
+        return strip.kind == StripKind::kSuggested && strip.cards.size() == 1 &&
+               strip.cards[0].picture != nullptr;
+    };
+    // The panels ask for the strip that they show.
+    set_workspace(shell->state(), Workspace::kTexture);
+    for (int k = 0; k < 4000 && !shows(); ++k) {
+        if (session->view().strip.kind != StripKind::kSuggested)
+            session->act(ShowStrip{StripKind::kSuggested, {(folder / "tile.png").string()}});
+        session->update(now_s += 0.02);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ASSERT_TRUE(shows());
+    EXPECT_FALSE(session->view().result_current) << "the texture was not applied";
+    EXPECT_FALSE(session->view().result_wanted);
+    session->act(ApplyTexture{(folder / "tile.png").string(), 0});
+    EXPECT_TRUE(settled()) << session->view().preview.error;
+}
+
+// One number that only grows: it began at 0% again with whatever interrupted the analysis.
+TEST_F(WholeWay, WhatIsThereAlreadyCountsAsAnalysed) {
+    open();
+    robot->key("Ctrl+Shift+N");
+    robot->key("B");
+    robot->frames(3);
+    robot->stroke({at(20, 24), at(75, 26), at(75, 44), at(20, 42)});
+    robot->frames(3);
+    const SessionView& view = session->view();
+    session->act(SetPreviewQuality{Quality::kDraft});
+    ASSERT_TRUE(wait([&] {
+        return !view.plate.frames.empty() && view.reached.size() == view.plate.frames.size();
+    }));
+    session->act(ApplyTexture{(folder / "tile.png").string(), 0});
+    int least = std::numeric_limits<int>::max();
+    EXPECT_TRUE(wait([&] {
+        if (view.preview.analysing && view.preview.total > 0)
+            least = std::min(least, view.preview.done);
+        return view.result_current && !view.preview.analysing;
+    })) << view.preview.error;
+    EXPECT_GT(least, 0) << "the mattes are there";
+}
 
 TEST_F(WholeWay, StabilityIsMeasuredAsThePreviewFills) {
     open();

@@ -41,6 +41,7 @@ struct Ctx {
     std::vector<DrawnItem>* items = nullptr;  ///< Null: widgets are not recorded.
     std::function<std::string(int)> job_log;
     std::function<void(int)> dismiss_notice;
+    std::function<void(NoticeKind, std::string)> notify;  ///< Shows a message; null: it is lost.
     /// Performs actions at once and updates the view; null: like emit().
     std::function<void(const std::vector<Action>&)> act_now;
     std::string panel;  ///< Prefix of the items' names.

@@ -140,7 +140,6 @@ struct DrawerState {
     bool together = false;       ///< Suggests sets for all regions.
     std::vector<RegionId> kept;  ///< Regions that keep their texture in a set.
     int together_first = 0;      ///< First set shown.
-    bool large_shown = false, large_pending = false;  ///< Large preview: shown; about to open.
 };
 
 /// A folder of textures to add.
@@ -341,8 +340,7 @@ struct UiState {
     int measured_count = 4;                         ///< Repeats along the reference line.
     StripKind strip = StripKind::kKeyframes;
     std::vector<std::string> strip_textures;
-    std::set<int> calibrated_jobs;  ///< Jobs already used for calibration.
-    bool strip_over_time = false;   ///< Contact sheet: each setting on several frames.
+    bool strip_over_time = false;  ///< Contact sheet: each setting on several frames.
     /// Returns true if the strip is shown as a contact sheet.
     [[nodiscard]] bool sheet() const { return strip_over_time && compares_settings(strip); }
     RegionId renaming = 0;

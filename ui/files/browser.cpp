@@ -260,8 +260,8 @@ bool selects_match(Ctx& c) {
     return c.folders.completes();
 }
 
-// Where it is: the folder's field takes any path.
-void folder_row(Ctx& c) {
+// Where it is: the folder's field takes any path. `focused`: what is typed at once goes there.
+void folder_row(Ctx& c, bool focused) {
     const Theme& t = c.theme;
     BrowserState& b = c.state.browser;
     if (icon_button(c, icons::kArrowUp, "Up one folder", false, nullptr, true, t.row)) {
@@ -273,6 +273,7 @@ void folder_row(Ctx& c) {
         c.folders.refresh();
     ImGui::SameLine();
     const std::string before = b.folder;
+    if (focused) ImGui::SetKeyboardFocusHere();
     input(c, "Folder", b.folder, wants_folder(b.purpose) ? "Folder" : "Folder, or a file", -1);
     if (b.folder != before) {
         b.typed_at_s = ImGui::GetTime();
@@ -322,7 +323,7 @@ void file_browser(Ctx& c) {
     ImGui::TextUnformatted(title_of(b.purpose));
     ImGui::PopFont();
     ImGui::SetCursorPos({t.px(16), t.px(48)});
-    folder_row(c);
+    folder_row(c, opened && b.purpose != Purpose::kSaveProject);
     const bool among = b.purpose == Purpose::kSaveProject && saves_among_frames(c, b);
     const float body = size.y - t.px(48 + 34 + 56 + (among ? 36 : 0));
     ImGui::SetCursorPos({t.px(16), t.px(84)});

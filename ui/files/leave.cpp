@@ -47,6 +47,23 @@ bool renders(const Ctx& c) {
     });
 }
 
+// What would end unfinished; empty: nothing.
+std::string ends_with(const Ctx& c, const LeaveFor& what) {
+    std::string text;
+    if (c.view.flattening) {
+        const Region* region = region_by_id(c.view.project, c.view.flattening->region);
+        text = "The surface of '" + (region ? region->name : std::string()) +
+               "' is still being gathered for painting. Leaving ends that, and nothing of it is "
+               "kept.";
+    }
+    // Of another shot it goes on.
+    if (c.view.collecting && what.kind == LeaveFor::Kind::kQuit)
+        text += std::string(text.empty() ? "" : " ") +
+                "Files are still being collected. Leaving ends that, and the copies are removed "
+                "again.";
+    return text;
+}
+
 // A dialog as tall as its text and a row of buttons, which follow.
 void begin_question(Ctx& c, const char* title, const std::string& text, bool& open) {
     const Theme& t = c.theme;
@@ -58,10 +75,38 @@ void begin_question(Ctx& c, const char* title, const std::string& text, bool& op
     ImGui::Dummy({0, gap});
 }
 
+// The answers to the questions return true if they mean to leave now.
+bool save_answers(Ctx& c) {
+    if (button(c, "Save", {.look = Look::kPrimary})) {
+        if (c.view.path.empty()) {
+            c.state.leave_asked = false;
+            c.commands.run("file.save", c);
+        } else {
+            c.emit(Save{});
+            c.state.leave_when_saved = true;
+        }
+    }
+    ImGui::SameLine();
+    return button(c, "Don't save");
+}
+
+bool render_answers(Ctx& c) {
+    const bool keep = button(c, "Keep rendering", {.look = Look::kPrimary});
+    ImGui::SameLine();
+    if (!button(c, "Cancel render", {.look = Look::kDanger})) return keep;
+    for (const JobView& job : c.view.jobs)
+        if (own(c, job)) c.emit(CommandJob{job.id, JobCommand::kCancel});
+    return true;
+}
+
+bool leave_answer(Ctx& c) {
+    return button(c, "Leave", {.look = Look::kDanger});
+}
+
 }  // namespace
 
 void leave_for(Ctx& c, const LeaveFor& what) {
-    if (!c.view.modified) return leave_now(c, what);
+    if (!c.view.modified && ends_with(c, what).empty()) return leave_now(c, what);
     c.state.leave_asked = true;
     c.state.leave_then = what;
 }
@@ -80,44 +125,24 @@ void leave_question(Ctx& c) {
         c.state.leave_then = {};
         return;
     }
-    if (!c.view.modified && c.state.leave_then.kind == LeaveFor::Kind::kQuit) {
-        if (!renders(c)) {
-            c.state.leave_asked = false;
-            c.state.leave = true;
-            return;
-        }
-    }
-    bool open = true;
     const bool modified = c.view.modified;
+    const bool rendering = c.state.leave_then.kind == LeaveFor::Kind::kQuit && renders(c);
+    const std::string ends = ends_with(c, c.state.leave_then);
+    if (!modified && !rendering && ends.empty()) return go();
+    bool open = true;
+    const std::string more = ends.empty() ? ends : " " + ends;
     if (modified)
-        begin_question(c, "Save first?", "'" + c.view.title + "' has changes that are not saved.",
-                       open);
-    else
+        begin_question(c, "Save first?",
+                       "'" + c.view.title + "' has changes that are not saved." + more, open);
+    else if (rendering)
         begin_question(c, "A render is running",
                        "The render continues when the editor is closed; its frames are written to "
-                       "its output folder.",
+                       "its output folder." +
+                           more,
                        open);
-    if (modified) {
-        if (button(c, "Save", {.look = Look::kPrimary})) {
-            if (c.view.path.empty()) {
-                c.state.leave_asked = false;
-                c.commands.run("file.save", c);
-            } else {
-                c.emit(Save{});
-                c.state.leave_when_saved = true;
-            }
-        }
-        ImGui::SameLine();
-        if (button(c, "Don't save")) go();
-    } else {
-        if (button(c, "Keep rendering", {.look = Look::kPrimary})) go();
-        ImGui::SameLine();
-        if (button(c, "Cancel render", {.look = Look::kDanger})) {
-            for (const JobView& job : c.view.jobs)
-                if (own(c, job)) c.emit(CommandJob{job.id, JobCommand::kCancel});
-            go();
-        }
-    }
+    else
+        begin_question(c, "Leave now?", ends, open);
+    if (modified ? save_answers(c) : rendering ? render_answers(c) : leave_answer(c)) go();
     ImGui::SameLine();
     if (button(c, "Cancel") || !open) {
         c.state.leave_asked = false;

@@ -23,24 +23,18 @@ constexpr FormGuideKind kStrokes[] = {FormGuideKind::kLevel, FormGuideKind::kPar
                                       FormGuideKind::kCut};
 
 // What was found, once the analysis is there.
-void finding(Ctx& c, const Region& region) {
+std::string finding(const Ctx& c, const Region& region) {
     const auto found = c.view.preview.forms.find(region.id);
     const auto& pinned = c.state.form.pinned_on;
     const bool off = region.form.source == FormSource::kFlat || most_amount(region) <= 0;
-    if (off)
-        wrapped(c, "Flat", c.theme.quiet);
-    else if (region.placement.corners_px && pinned.contains(region.id))
-        wrapped(c, "The corner pin gives the perspective. It began on: " + pinned.at(region.id),
-                c.theme.quiet);
-    else if (found != c.view.preview.forms.end())
-        wrapped(c, found->second, c.theme.quiet);
-    else if (region.form.source == FormSource::kPass && region.form.position.empty() &&
-             region.form.normal.empty())
-        wrapped(c, "No position or normal pass: flat", c.theme.quiet);
-    else if (region.placement.corners_px)
-        wrapped(c, "The corner pin gives the perspective", c.theme.quiet);
-    else
-        wrapped(c, "Not found yet", c.theme.quiet);
+    if (off) return "Flat";
+    if (region.placement.corners_px && pinned.contains(region.id))
+        return "The corner pin gives the perspective. It began on: " + pinned.at(region.id);
+    if (found != c.view.preview.forms.end()) return found->second;
+    if (region.form.source == FormSource::kPass && region.form.position.empty() &&
+        region.form.normal.empty())
+        return "No position or normal pass: flat";
+    return region.placement.corners_px ? "The corner pin gives the perspective" : "Not found yet";
 }
 
 template <std::size_t Count>
@@ -140,7 +134,8 @@ void form_section(Ctx& c, const Region& region) {
     if (const auto why = c.view.form_problems.find(region.id); why != c.view.form_problems.end())
         banner(c, icons::kAlert, c.theme.bad, why->second);
     else
-        finding(c, region);
+        // It changes when the analysis is there; the buttons below stay where they are.
+        wrapped_in(c, finding(c, region), c.theme.quiet, 2);
     kind_buttons(c, "Shapes", {"Plane", "Cylinder", "Cone", "Ball"}, kFormShapes);
     kind_buttons(c, "Strokes", {"Level", "Parallel", "Cut"}, kStrokes);
     const FormParams& form = region.form;

@@ -6,7 +6,5 @@
 namespace weft::ui {
 
 void jobs_page(Ctx& c, ImVec2 size);
-/// Calibrates the estimate with the times of finished jobs.
-void learn_from_jobs(Ctx& c);
 
 }  // namespace weft::ui

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/render/render_estimate.h"
 #include "ui/base/icons.h"
 #include "ui/jobs/folder_of.h"
 #include "ui/jobs/job_words.h"
@@ -189,17 +188,6 @@ void jobs_page(Ctx& c, ImVec2 size) {
     for (const JobView* job : in_order(c.view.jobs))
         job_row(c, *job);
     end_panel(c);
-}
-
-void learn_from_jobs(Ctx& c) {
-    for (const JobView& job : c.view.jobs) {
-        if (job.state != JobState::kDone || job.estimated_s <= 0 ||
-            c.state.calibrated_jobs.contains(job.id))
-            continue;
-        c.state.calibrated_jobs.insert(job.id);
-        c.settings.render_speed =
-            calibrated_speed(c.settings.render_speed, job.estimated_s, job.elapsed_s);
-    }
 }
 
 }  // namespace weft::ui

@@ -259,26 +259,12 @@ void file_choice(Ctx& c) {
     segments(c, "Existing", {"Fail", "Skip", "Overwrite"}, e.existing);
 }
 
-// Says what is wrong with the output; true if frames can be written to it.
-bool output_notice(Ctx& c, const std::vector<int>& frames) {
-    const auto problem = output_problem(c.state.output.output, frames.size());
-    if (!problem) {
-        existing_frames_notice(c, frames);
-        return true;
-    }
-    banner(c, icons::kAlert, c.theme.bad, *problem);
-    c.note("Output problem");
-    return false;
-}
-
-// Says what keeps the project from being rendered; true if nothing does.
-bool project_notice(Ctx& c) {
+// What keeps the project from being rendered; empty: nothing does.
+std::string project_problem(const Ctx& c) {
     if (const auto& forms = c.view.form_problems; !forms.empty()) {
         const Region* region = region_by_id(c.view.project, forms.begin()->first);
         const std::string of = region ? "Form of " + region->name + ": " : std::string();
-        banner(c, icons::kAlert, c.theme.bad, of + forms.begin()->second);
-        c.note("Form problem");
-        return false;
+        return of + forms.begin()->second;
     }
     const auto problem =
         std::find_if(c.view.issues.begin(), c.view.issues.end(),
@@ -286,11 +272,24 @@ bool project_notice(Ctx& c) {
     // The output is set here, so it may be missing in the document.
     const bool ready =
         problem == c.view.issues.end() || problem->where.find("output") != std::string::npos;
-    if (!ready)
-        banner(c, icons::kAlert, c.theme.bad, in_words(c, *problem));
-    else if (c.view.plate.state == PlateView::State::kFailed)
+    return ready ? std::string() : in_words(c, *problem);
+}
+
+// Below the button, which would move from under the mouse as the first frames are written.
+void render_notices(Ctx& c, const std::vector<int>& frames,
+                    const std::optional<std::string>& output, const std::string& project) {
+    if (output) {
+        banner(c, icons::kAlert, c.theme.bad, *output);
+        c.note("Output problem");
+    } else {
+        existing_frames_notice(c, frames);
+    }
+    if (!project.empty()) {
+        banner(c, icons::kAlert, c.theme.bad, project);
+        c.note(c.view.form_problems.empty() ? "Project problem" : "Form problem");
+    } else if (c.view.plate.state == PlateView::State::kFailed) {
         banner(c, icons::kAlert, c.theme.bad, "Cannot open the plate. " + c.view.plate.error);
-    return ready;
+    }
 }
 
 SubmitJob job_of(const ExportState& e, const std::vector<int>& frames, double seconds) {
@@ -324,18 +323,21 @@ void render_card(Ctx& c, ImVec2 size) {
     project_parameter(c, "output.depth", "Depth");
     gap(6);
     const std::vector<int> frames = frames_of(c);
-    const bool writable = output_notice(c, frames);
+    const std::optional<std::string> output_wrong =
+        output_problem(c.state.output.output, frames.size());
+    const std::string project_wrong = project_problem(c);
     const double seconds = estimate(c, frames);
     gap(4);
-    const bool ready = project_notice(c);
     const std::string label = "Render " + std::to_string(frames.size()) + " frames";
     if (button(c, (label + "##submit").c_str(),
                {.icon = icons::kRocket,
                 .look = Look::kPrimary,
-                .enabled = ready && writable && !frames.empty(),
+                .enabled = project_wrong.empty() && !output_wrong && !frames.empty(),
                 .width = -1}))
         c.emit(job_of(c.state.output, frames, seconds));
     c.note("Render frames");
+    gap(4);
+    render_notices(c, frames, output_wrong, project_wrong);
     end_panel(c);
 }
 

@@ -2,11 +2,13 @@
 // contact sheet of settings on several frames.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "ui/base/icons.h"
 #include "ui/canvas/handles.h"
 #include "ui/light/light.h"
 #include "ui/widgets/widgets.h"
+#include "ui/widgets/wrap.h"
 
 namespace weft::ui {
 namespace {
@@ -29,6 +31,43 @@ std::vector<std::string> textures_to_try(const Ctx& c) {
     return out;
 }
 
+// In the middle of a card, in lines: the cards of a small window are narrow.
+void text_in_card(Ctx& c, const std::string& text, ImVec2 min, ImVec2 max, ImU32 color) {
+    const Theme& t = c.theme;
+    const float width = max.x - min.x - t.px(6);
+    ImGui::PushFont(t.small);
+    std::istringstream lines(wrapped_at_words(text, width, [](std::string_view part) {
+        return ImGui::CalcTextSize(part.data(), part.data() + part.size()).x;
+    }));
+    std::vector<std::string> shown;
+    for (std::string line; std::getline(lines, line);)
+        shown.push_back(fitted(line, width));
+    const float line_h = ImGui::GetTextLineHeight();
+    float y = (min.y + max.y - line_h * static_cast<float>(shown.size())) * 0.5f;
+    std::string noted;
+    for (const std::string& line : shown) {
+        text_in(*ImGui::GetWindowDrawList(), t.small, {min.x, y}, {max.x, y + line_h}, color,
+                line.c_str());
+        noted += (noted.empty() ? "" : " ") + line;
+        y += line_h;
+    }
+    c.note("Card: " + noted, min, max);
+    ImGui::PopFont();
+}
+
+// On the picture, where it has room beside the label.
+void provisional_mark(Ctx& c, ImVec2 min, ImVec2 max) {
+    const Theme& t = c.theme;
+    const ImVec2 top(min.x, max.y - t.px(18));
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(top, max, t.scrim);
+    ImGui::PushFont(t.small);
+    const std::string text = fitted("Provisional", max.x - min.x - t.px(6));
+    ImGui::PopFont();
+    text_in(list, t.small, top, max, t.quiet, text.c_str());
+    c.note("Mark: " + text, top, max);
+}
+
 // Draws the picture into `min`–`max`, or its state.
 void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
     const Theme& t = c.theme;
@@ -45,6 +84,7 @@ void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
         if (const ImTextureID id = c.pictures.texture(one.picture))
             list.AddImageRounded(id, at, {at.x + w, at.y + h}, {0, 0}, {1, 1}, IM_COL32_WHITE,
                                  t.radius);
+        if (one.provisional) provisional_mark(c, min, max);
         return;
     }
     // Wait for earlier cards or for the main picture.
@@ -55,10 +95,7 @@ void picture_in(Ctx& c, const StripCard& one, ImVec2 min, ImVec2 max) {
         : c.view.analysis_paused ? std::string("The analysis is paused")
                                  : std::string("Rendering…");
     const std::string text = one.error.empty() ? waiting : "No result";
-    ImGui::PushFont(t.small);
-    text_in(list, t.small, min, max, one.error.empty() ? t.quiet : t.bad,
-            fitted(text, max.x - min.x - t.px(6)).c_str());
-    ImGui::PopFont();
+    text_in_card(c, text, min, max, one.error.empty() ? t.quiet : t.bad);
 }
 
 void strip_card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size) {
@@ -83,7 +120,7 @@ void strip_card(Ctx& c, const StripCard& one, int index, ImVec2 at, ImVec2 size)
                      here ? t.accent : faded(t.text, 0.5f), t.radius, 0, t.px(here ? 2 : 1));
     ImGui::PushFont(t.small);
     text_in(list, t.small, {at.x, max.y}, {max.x, at.y + size.y}, here ? t.text : t.quiet,
-            fitted(one.label + (one.provisional ? "  ·  provisional" : ""), size.x).c_str(), 0);
+            fitted(one.label, size.x).c_str(), 0);
     ImGui::PopFont();
 }
 

@@ -1,4 +1,6 @@
 // Suggested keyframes: a list; a click goes to the frame.
+#include <algorithm>
+
 #include "ui/base/icons.h"
 #include "ui/mask/mask.h"
 #include "ui/widgets/widgets.h"
@@ -37,25 +39,30 @@ const char* tip_of(CorrectionHint::Kind kind) {
     return "";
 }
 
+// The best ones; the timeline marks all of them.
+constexpr std::size_t kShown = 3;
+
 }  // namespace
+
+std::string no_hints_text(const SessionView& view) {
+    const bool known =
+        std::any_of(view.marks.begin(), view.marks.end(),
+                    [](const FrameMarks& mark) { return mark.confidence >= 0 || mark.drift >= 0; });
+    return known ? "No frame needs a keyframe." : "No suggestions until the shot is analysed.";
+}
 
 void hints_section(Ctx& c, bool mattes_only) {
     const SessionView& v = c.view;
     std::vector<CorrectionHint> shown;
     for (const CorrectionHint& hint : v.to_correct)
         if (!mattes_only || hint.kind == CorrectionHint::Kind::kMatte) shown.push_back(hint);
-    if (mattes_only && shown.empty()) return;
     if (!section(c, "Suggested keyframes", true)) return;
     const PanelName panel(c, "Hints");
-    if (shown.empty()) {
-        bool known = false;
-        for (const FrameMarks& mark : v.marks)
-            known |= mark.confidence >= 0 || mark.drift >= 0;
-        wrapped(c,
-                known ? "No frame needs a keyframe."
-                      : "Frames to check are listed here once the shot is analysed.",
-                c.theme.quiet);
-    }
+    if (shown.size() > kShown) shown.resize(kShown);
+    // They go with every change and come back with the analysis: what is below stays where it is.
+    const float top = ImGui::GetCursorPosY();
+    const float row = c.theme.row + ImGui::GetStyle().ItemSpacing.y;
+    if (shown.empty()) wrapped(c, no_hints_text(v), c.theme.quiet);
     for (const CorrectionHint& hint : shown) {
         ImGui::PushID(hint.frame);
         const std::string label = text_of(hint) + "##hint" + std::to_string(hint.frame);
@@ -70,6 +77,7 @@ void hints_section(Ctx& c, bool mattes_only) {
         c.note("Hint " + std::to_string(hint.frame));
         ImGui::PopID();
     }
+    ImGui::SetCursorPosY(top + static_cast<float>(kShown) * row);
     section_gap(c);
 }
 

@@ -33,24 +33,29 @@ void other_regions(Ctx& c, const Region& region) {
 void propagation_progress(Ctx& c) {
     const SessionView& v = c.view;
     const std::size_t reached = v.reached.size(), all = v.plate.frames.size();
-    if (reached == all) {
-        wrapped(c,
-                "Propagated through the shot. The strip below the ruler is pale where the "
-                "confidence is low.",
-                c.theme.quiet);
-        c.note("Propagated");
-        return;
-    }
-    progress_bar(
-        c, static_cast<float>(reached) / static_cast<float>(std::max<std::size_t>(1, all)),
-        "Propagated to " + std::to_string(reached) + " of " + std::to_string(all) + " frames");
-    c.note("Reached " + std::to_string(reached));
+    const bool over = reached == all;
+    progress_bar(c, static_cast<float>(reached) / static_cast<float>(std::max<std::size_t>(1, all)),
+                 over ? "Propagated through the shot"
+                      : std::string(v.analysis_paused ? "Paused" : "Propagating") + ": " +
+                            std::to_string(reached) + " of " + std::to_string(all) + " frames");
+    c.note(over ? "Propagated" : "Reached " + std::to_string(reached));
     if (v.analysis_paused) {
-        if (button(c, "Continue", {.icon = icons::kPlay, .look = Look::kPrimary, .width = -1}))
+        if (button(c, "Continue",
+                   {.icon = icons::kPlay, .look = Look::kPrimary, .enabled = !over, .width = -1}))
             c.emit(PauseAnalysis{false});
-    } else if (button(c, "Pause", {.icon = icons::kPause, .width = -1})) {
+    } else if (button(c, "Pause", {.icon = icons::kPause, .enabled = !over, .width = -1})) {
         c.emit(PauseAnalysis{true});
     }
+    // The strip comes with the confidence, a moment after the last matte.
+    const bool confident = std::any_of(v.marks.begin(), v.marks.end(),
+                                       [](const FrameMarks& m) { return m.confidence >= 0; });
+    std::string text;
+    if (!over)
+        text = "Frames still to come show what they showed before the last change.";
+    else if (confident)
+        text = "The strip below the ruler is pale where the confidence is low.";
+    wrapped_in(c, text, c.theme.quiet, 2);
+    if (!text.empty()) c.note("About: " + text);
 }
 
 // Direction and range of propagation.

@@ -9,6 +9,8 @@ namespace weft::ui {
 void mask_inspector(Ctx& c);
 /// Suggested keyframes; `mattes_only`: those of the matte only.
 void hints_section(Ctx& c, bool mattes_only);
+/// Why there are none.
+[[nodiscard]] std::string no_hints_text(const SessionView& view);
 void motion_zones_section(Ctx& c, const Region& region);
 
 /// Handles brush input before drawing, so that this frame shows the stroke.

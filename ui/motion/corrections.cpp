@@ -1,9 +1,25 @@
 // The part of the motion inspector for pins.
+#include <algorithm>
+
 #include "ui/base/icons.h"
+#include "ui/mask/mask.h"
 #include "ui/motion/motion.h"
 #include "ui/widgets/widgets.h"
 
 namespace weft::ui {
+
+void go_to_suggested(Ctx& c) {
+    const std::vector<CorrectionHint>& all = c.view.to_correct;
+    if (all.empty()) {
+        if (c.notify) c.notify(NoticeKind::kInfo, no_hints_text(c.view));
+        return;
+    }
+    const auto here = std::find_if(all.begin(), all.end(), [&](const CorrectionHint& hint) {
+        return hint.frame == c.view.frame;
+    });
+    const bool goes_on = here != all.end() && here + 1 != all.end();
+    c.emit(GoToFrame{goes_on ? (here + 1)->frame : all.front().frame});
+}
 
 void corrections_section(Ctx& c, const Region& region) {
     const Theme& t = c.theme;

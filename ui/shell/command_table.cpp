@@ -43,16 +43,6 @@ void add_region(Ctx& c) {
     if (c.state.tool == Tool::kPan) c.state.tool = Tool::kBrush;
 }
 
-// The frame where a look pays most; from there the next one, around.
-void go_to_suggested(Ctx& c) {
-    const std::vector<CorrectionHint>& all = c.view.to_correct;
-    const auto here = std::find_if(all.begin(), all.end(), [&](const CorrectionHint& hint) {
-        return hint.frame == c.view.frame;
-    });
-    const bool goes_on = here != all.end() && here + 1 != all.end();
-    c.emit(GoToFrame{goes_on ? (here + 1)->frame : all.front().frame});
-}
-
 void add_edit_commands(std::vector<Command>& out) {
     out.push_back(command(
         "edit.undo", "Edit", "Undo", icons::kUndo, "Ctrl+Z", [](Ctx& c) { c.emit(Undo{}); },
@@ -221,8 +211,7 @@ void add_time_commands(std::vector<Command>& out) {
     add("time.next_key", "Next keyframe", icons::kChevronRight, "Shift+Right",
         [](Ctx& c) { c.emit(StepKeyframe{1}); });
     out.push_back(command("time.suggested", "Time", "Next suggested frame", icons::kBrush,
-                          "Ctrl+Right", go_to_suggested,
-                          [](const Ctx& c) { return !c.view.to_correct.empty(); }));
+                          "Ctrl+Right", ui::go_to_suggested, has_plate));
     add("time.keys", "Show keys and curves", icons::kKeyframe, "Ctrl+Shift+K",
         [](Ctx& c) { c.state.keys.open = !c.state.keys.open; });
     add("time.first", "First frame", icons::kSkipPrevious, "Home",

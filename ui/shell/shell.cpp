@@ -137,6 +137,7 @@ std::vector<Action> Shell::draw(const SessionView& view) {
           recording_ ? &items_ : nullptr,
           job_log,
           dismiss_notice,
+          notify,
           act_now,
           {}};
     const bool sheet = state_.palette_open || state_.shortcuts_open || state_.leave_asked ||
@@ -157,7 +158,6 @@ std::vector<Action> Shell::draw(const SessionView& view) {
         (state_.workspace == Workspace::kLight ||
          (state_.workspace == Workspace::kTexture && view.strip.kind == StripKind::kSuggested));
     if (view.strip.kind != StripKind::kNone && !strip_seen) c.emit(ShowStrip{});
-    ui::learn_from_jobs(c);
     ui::notices(c);
     ui::tour(c);
     ui::history_window(c);
@@ -258,11 +258,10 @@ void Shell::layout(Ctx& c) {
         panels && state_.workspace == Workspace::kLight && !(four && screen.y / t.scale < 1100);
     const bool sheet = strip && state_.sheet();
     const float least_view = t.px(120);
-    float extra_h =
-        drawer   ? t.px(state_.drawer_h)
-        : report ? t.px(c.view.report.state == QualityReport::State::kDone ? state_.review_h : 196)
-        : strip  ? t.px(sheet ? state_.sheet_h : state_.strip_h)
-                 : 0;
+    float extra_h = drawer   ? t.px(state_.drawer_h)
+                    : report ? t.px(state_.review_h)
+                    : strip  ? t.px(sheet ? state_.sheet_h : state_.strip_h)
+                             : 0;
     // By default the picture keeps more than half of the height; the user may enlarge the panels.
     const UiState fresh;
     const float room = std::max(0.0f, body_h - timeline_h - least_view);

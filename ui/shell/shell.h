@@ -32,10 +32,11 @@ class Shell {
     void open_dropped(const std::string& path, const SessionView& view);
     void ask_to_leave();
     /// Returns true while something changes without input (thumbnails being loaded).
-    [[nodiscard]] bool waiting() const { return folders_.busy() || state_.drawer.large_pending; }
+    [[nodiscard]] bool waiting() const { return folders_.busy(); }
 
     std::function<std::string(int)> job_log;
     std::function<void(int)> dismiss_notice;
+    std::function<void(NoticeKind, std::string)> notify;
     std::function<void(const std::vector<Action>&)> act_now;  ///< Passed on as Ctx::act_now.
 
   private:

@@ -236,7 +236,11 @@ void status_bar(Ctx& c, ImVec2 size) {
     float x = origin.x + t.px(10);
     const float bottom = origin.y + size.y;
     const auto cell = [&](const std::string& text, float width, ImU32 color) {
+        // A longer text takes the room of what follows, which would be written over it.
+        const float written = t.small->CalcTextSizeA(t.small->FontSize, FLT_MAX, 0, text.c_str()).x;
+        width = std::max(width, written + t.px(10));
         if (x + width > origin.x + size.x - t.px(8)) return;
+        c.note("Status: " + text, {x, origin.y}, {x + width, bottom});
         text_in(list, t.small, {x, origin.y}, {x + width, bottom}, color, text.c_str(), 0);
         x += width;
         list.AddLine({x, origin.y + t.px(7)}, {x, bottom - t.px(7)}, faded(t.off, 0.6f));

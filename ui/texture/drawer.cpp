@@ -1,6 +1,7 @@
 // The texture drawer: library, suggestions and large preview.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 #include <unordered_map>
 
@@ -266,13 +267,30 @@ void grid(Ctx& c, const std::vector<TextureCard>& cards, ImVec2 size) {
     ImGui::EndChild();
 }
 
-void large(Ctx& c, const TextureCard& card, ImVec2 size) {
+// The region's texture as its card names it; empty: it has none.
+std::string own_texture(const Ctx& c) {
+    const Region* region = c.view.selected_region();
+    if (!region || !region->texture.plane.empty() || region->texture.sample.empty()) return {};
+    const std::string& sample = region->texture.sample;
+    if (std::string library = library_name_of(sample); !library.empty()) return library;
+    const std::filesystem::path project = c.view.path;
+    return std::filesystem::absolute(project.parent_path() / sample).lexically_normal().string();
+}
+
+// The selected texture, else that of the region, which need not be listed; no path: neither.
+TextureCard large_card(Ctx& c, const std::vector<TextureCard>& cards) {
+    TextureCard own;
+    own.path = own_texture(c);
+    if (!own.path.empty()) own.name = c.textures.name_of_texture(own.path);
+    for (const TextureCard& card : cards) {
+        if (card.path == c.state.drawer.picked) return card;
+        if (card.path == own.path) own = card;
+    }
+    return own;
+}
+
+void large_texture(Ctx& c, const TextureCard& card) {
     const Theme& t = c.theme;
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(10), t.px(8)});
-    ImGui::BeginChild("Large", size, true,
-                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
-    ImGui::PopStyleVar();
-    const PanelName name(c, "Large");
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     const float picture_h = std::max(t.px(60), room.y - t.px(84));
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -307,14 +325,28 @@ void large(Ctx& c, const TextureCard& card, ImVec2 size) {
     const TextureCard known = c.textures.details(card);
     std::string facts = known.material;
     if (!known.author.empty()) facts += " · " + known.author;
-    facts += " · " + (known.licence.empty() ? "licence not stated" : known.licence);
+    facts += (facts.empty() ? "" : " · ") +
+             (known.licence.empty() ? "licence not stated" : known.licence);
     quiet(c, facts.c_str());
     if (button(c, "Apply to region",
                {.icon = icons::kCheck,
                 .look = Look::kPrimary,
-                .enabled = c.view.selected_region() != nullptr,
+                .enabled = c.view.selected_region() != nullptr && card.path != own_texture(c),
                 .width = -1}))
         c.emit(ApplyTexture{card.path, 0});
+}
+
+void large(Ctx& c, const TextureCard& card, ImVec2 size) {
+    const Theme& t = c.theme;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(10), t.px(8)});
+    ImGui::BeginChild("Large", size, true,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::PopStyleVar();
+    const PanelName name(c, "Large");
+    if (!card.path.empty())
+        large_texture(c, card);
+    else
+        empty_state(c, icons::kTexture, "No texture selected", "Click one to see it large here.");
     ImGui::EndChild();
 }
 
@@ -329,18 +361,9 @@ void texture_drawer(Ctx& c, ImVec2 size) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine(origin, {origin.x + size.x, origin.y}, t.line);
     const float left = t.px(196), count_w = t.px(330);
-    // The large preview, once a texture is selected. Until then the cards use its room.
-    const auto picked = std::find_if(cards->begin(), cards->end(), [&](const TextureCard& card) {
-        return card.path == c.state.drawer.picked;
-    });
-    // Opens shortly after the click, so that the second click of a double click hits the same card.
-    DrawerState& d = c.state.drawer;
-    constexpr double kMomentS = 0.35;
-    if (picked == cards->end()) d.large_shown = false;
-    d.large_pending = picked != cards->end() && !d.large_shown;
-    if (d.large_pending && ImGui::GetTime() - ImGui::GetIO().MouseClickedTime[0] > kMomentS)
-        d.large_shown = true;
-    const float right = d.large_shown ? std::clamp(size.x * 0.24f, t.px(200), t.px(320)) : 0;
+    // The large preview always has its room: if it opened with the first click, the cards would
+    // move from under the mouse.
+    const float right = std::clamp(size.x * 0.2f, t.px(200), t.px(320));
     const float head = t.px(38), body = size.y - head;
     ImGui::SetCursorScreenPos({origin.x + t.px(10), origin.y + t.px(6)});
     input(c, "Search textures", c.state.drawer.search, "Search textures", t.px(260),
@@ -365,12 +388,10 @@ void texture_drawer(Ctx& c, ImVec2 size) {
     ImGui::SetCursorScreenPos({origin.x + left, origin.y + head});
     grid(c, *cards, {size.x - left - right, body});
     list.AddLine({origin.x + left, origin.y + head}, {origin.x + left, origin.y + size.y}, t.line);
-    if (right > 0) {
-        ImGui::SetCursorScreenPos({origin.x + size.x - right, origin.y + head});
-        large(c, *picked, {right, body});
-        list.AddLine({origin.x + size.x - right, origin.y + head},
-                     {origin.x + size.x - right, origin.y + size.y}, t.line);
-    }
+    ImGui::SetCursorScreenPos({origin.x + size.x - right, origin.y + head});
+    large(c, large_card(c, *cards), {right, body});
+    list.AddLine({origin.x + size.x - right, origin.y + head},
+                 {origin.x + size.x - right, origin.y + size.y}, t.line);
     end_panel(c);
 }
 

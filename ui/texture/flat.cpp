@@ -10,30 +10,47 @@ namespace {
 
 std::string stage_text(const FlattenView& now) {
     if (!now.stage) return "Starting…";
-    const std::string frames =
-        " " + std::to_string(now.done) + " of " + std::to_string(std::max(now.total, now.done));
-    switch (*now.stage) {
-        case WorkStage::kAnalyse:
-            return "Analysing" + frames;
-        case WorkStage::kWait:
-            return "Taking the editor's analysis" + frames;
-        default:
-            return "Gathering the surface " + percent_text(now.done, std::max(now.total, 1));
-    }
+    const std::string what = *now.stage == WorkStage::kAnalyse ? "Analysing "
+                             : *now.stage == WorkStage::kWait  ? "Taking the editor's analysis "
+                                                               : "Gathering the surface ";
+    const std::string left = now.left_s > 0 ? ", " + time_text(now.left_s) + " left" : "";
+    return what + percent_text(now.done, std::max(now.total, 1)) + left;
 }
 
+// As high as the button in whose place it is, so that nothing moves when it is over.
 void progress(Ctx& c, const FlattenView& now) {
+    const Theme& t = c.theme;
     const float share =
         now.total > 0 ? static_cast<float>(now.done) / static_cast<float>(now.total) : 0.0f;
-    progress_bar(c, share, stage_text(now) + (now.left_s > 0 ? ", " + time_text(now.left_s) : ""));
-    if (button(c, "Cancel##flat", {.icon = icons::kClose, .width = -1})) c.emit(StopPaintFlat{});
+    progress_bar(c, share, stage_text(now), ImGui::GetContentRegionAvail().x - t.row - t.px(4),
+                 t.row);
+    ImGui::SameLine(0, t.px(4));
+    if (icon_button(c, icons::kClose, "Cancel gathering", false, nullptr, true, t.row))
+        c.emit(StopPaintFlat{});
+}
+
+// Writes a picture of the surface, or opens the one that it shows.
+void paint_button(Ctx& c, const Region& region, const PaintProgram& program) {
+    const bool shows_picture = !region.texture.plane.empty();
+    const std::string label =
+        (shows_picture ? "Open in " + program.name : "Paint flat in " + program.name + "…") +
+        "##flat";
+    if (button(c, label.c_str(),
+               {.icon = icons::kBrush,
+                .enabled = !c.view.flattening && c.view.plate.state == PlateView::State::kOpen,
+                .tip = shows_picture
+                           ? "What you save there shows here a second or two later"
+                           : "Writes this surface as one still picture, without its light and "
+                             "what passes in front, and opens it. A logo, dirt or a repair that "
+                             "you paint on it and save lies on the surface in every frame",
+                .width = -1}))
+        c.emit(PaintFlat{region.id, program.command});
+    c.note("Paint flat");
 }
 
 }  // namespace
 
 void flat_controls(Ctx& c, const Region& region) {
-    const auto& now = c.view.flattening;
-    if (now && now->region == region.id) return progress(c, *now);
     const auto& programs = c.view.paint_programs;
     if (programs.empty()) {
         button(c, "Paint flat…",
@@ -43,21 +60,10 @@ void flat_controls(Ctx& c, const Region& region) {
                 .width = -1});
         return;
     }
-    const std::string& name = programs.front().name;
-    const bool shows_picture = !region.texture.plane.empty();
-    const std::string label =
-        (shows_picture ? "Open in " + name : "Paint flat in " + name + "…") + "##flat";
-    if (button(c, label.c_str(),
-               {.icon = icons::kBrush,
-                .enabled = !now && c.view.plate.state == PlateView::State::kOpen,
-                .tip = shows_picture
-                           ? "What you save there shows here a second or two later"
-                           : "Writes this surface as one still picture, without its light and "
-                             "what passes in front, and opens it. A logo, dirt or a repair that "
-                             "you paint on it and save lies on the surface in every frame",
-                .width = -1}))
-        c.emit(PaintFlat{region.id, programs.front().command});
-    c.note("Paint flat");
+    if (c.view.flattening && c.view.flattening->region == region.id)
+        progress(c, *c.view.flattening);
+    else
+        paint_button(c, region, programs.front());
     if (programs.size() < 2) return;
     std::vector<std::string> names;
     names.reserve(programs.size());

@@ -62,8 +62,8 @@ void bricks_controls(Ctx& c) {
     }
     double count = c.state.measured_count;
     if (slider(c,
-               {.label = "Repeats along line",
-                .tip = "How many bricks, tiles or stitches the line covers",
+               {.label = "Repeats",
+                .tip = "How many bricks, tiles or stitches lie along the line",
                 .min = 1,
                 .max = 40,
                 .standard = 4,
@@ -167,9 +167,12 @@ void texture_inspector(Ctx& c) {
                 region_parameter(c, *region, "texture.wrap", "Wrap mode");
             } else {
                 region_parameter(c, *region, "texture.mode", "Mode");
+                // Known a moment after the texture: its lines are kept, so that nothing moves.
                 const auto kind = c.view.preview.samples.find(region->id);
-                if (kind != c.view.preview.samples.end())
-                    wrapped(c, "Taken for " + kind->second + ".", t.quiet);
+                wrapped_in(c,
+                           kind != c.view.preview.samples.end() ? "Taken for " + kind->second + "."
+                                                                : std::string(),
+                           t.quiet, 3);
             }
         }
         flat_controls(c, *region);

@@ -54,6 +54,14 @@ void suggestion_heading(Ctx& c, const std::string& text) {
 constexpr int kReasonLines = 3;
 constexpr float kReasonLine_px = 15;
 
+// Cards get narrower before fewer than this many are shown: one of the first five suits.
+constexpr int kWantedCards = 5;
+
+float suggestion_width(const Theme& t, float room, float gap) {
+    const float width = std::floor((room + gap) / kWantedCards) - gap;
+    return std::clamp(width, t.px(124), t.px(148));
+}
+
 // A reason in lines of the present font, the last of them shortened if there are more.
 std::vector<std::string> reason_lines(const std::string& reason, float width) {
     std::istringstream wrapped(wrapped_at_words(reason, width, [](std::string_view text) {
@@ -276,11 +284,11 @@ void suggested(Ctx& c, const std::vector<TextureCard>& cards) {
     const PanelName name(c, "Suggested");
     suggestion_heading(c, "Suggested for " + region->name + ", on this frame");
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float w = t.px(148), h = t.px(92), step = w + t.px(10);
+    const float gap = t.px(10), room = ImGui::GetContentRegionAvail().x;
+    const float w = suggestion_width(t, room, gap), h = t.px(92), step = w + gap;
     // Its room is kept while they are looked for, so that the textures below do not move away.
     const ImVec2 below(at.x, at.y + h + t.px(28 + kReasonLines * kReasonLine_px));
-    const float room = ImGui::GetContentRegionAvail().x;
-    const auto fit = static_cast<std::size_t>(std::max(1.0f, std::floor((room + t.px(10)) / step)));
+    const auto fit = static_cast<std::size_t>(std::max(1.0f, std::floor((room + gap) / step)));
     std::vector<std::string> paths;
     std::size_t shown = 0;
     for (const TextureSuggestion& s : found) {

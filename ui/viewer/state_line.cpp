@@ -73,9 +73,15 @@ State waiting_state(const Ctx& c) {
 // A mask is painted over the plate, while the result is worked out.
 State plate_state(const Ctx& c) {
     State out{"Plate", c.theme.text};
-    if (!c.view.preview.analysing || c.view.preview.total <= 0) return out;
-    out.text += "  ·  analysing";
-    add_progress(c.view.preview, out);
+    const PreviewView& preview = c.view.preview;
+    if (preview.analysing && preview.total > 0) {
+        out.text += "  ·  analysing";
+        add_progress(preview, out);
+    } else if (c.view.analysis_paused && !c.view.result_current) {
+        out.text += "  ·  analysis paused";
+    } else if (!c.view.result_current && preview.state != PreviewView::State::kFailed) {
+        out.text += "  ·  preparing the result…";
+    }
     return out;
 }
 

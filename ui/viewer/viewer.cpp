@@ -175,6 +175,15 @@ void failure(Ctx& c, ImDrawList& list, ImVec2 min, ImVec2 max) {
                  text.c_str(), nullptr, width - t.px(50));
 }
 
+// A movie is read to its end, since what its file says of its length may be wrong.
+void opening(Ctx& c, const PlateView& plate) {
+    const std::string heading =
+        plate.counted > 0 ? "Counting the movie's frames: " + std::to_string(plate.counted)
+                          : "Opening the plate…";
+    empty_state(c, icons::kTimer, heading.c_str(), plate.path.c_str());
+    c.note(heading);
+}
+
 void no_picture(Ctx& c) {
     const PlateView& plate = c.view.plate;
     switch (plate.state) {
@@ -184,7 +193,7 @@ void no_picture(Ctx& c) {
                         "find one.");
             break;
         case PlateView::State::kOpening:
-            empty_state(c, icons::kTimer, "Opening the plate…", plate.path.c_str());
+            opening(c, plate);
             break;
         case PlateView::State::kFailed:
             empty_state(c, icons::kAlert, "Cannot open the plate", plate.error.c_str());

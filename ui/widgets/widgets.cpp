@@ -271,6 +271,14 @@ void wrapped(Ctx& c, const std::string& text, ImU32 color) {
     static_cast<void>(c);
 }
 
+void wrapped_in(Ctx& c, const std::string& text, ImU32 color, int lines) {
+    const float top = ImGui::GetCursorPosY();
+    wrapped(c, text, color);
+    const float least = static_cast<float>(lines) * ImGui::GetTextLineHeight();
+    const float below = top + least + ImGui::GetStyle().ItemSpacing.y;
+    if (ImGui::GetCursorPosY() < below) ImGui::SetCursorPosY(below);
+}
+
 void empty_state(Ctx& c, const char* icon, const char* title, const char* what_to_do) {
     const Theme& t = c.theme;
     const ImVec2 room = ImGui::GetContentRegionAvail();

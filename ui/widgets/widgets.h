@@ -64,6 +64,9 @@ void section_gap(Ctx& c);
 void heading(Ctx& c, const char* text);
 void quiet(Ctx& c, const char* text);  ///< One line, shortened with … if it does not fit.
 void wrapped(Ctx& c, const std::string& text, ImU32 color);
+/// The same in the room of at least so many lines, for a text that comes and goes: what is below
+/// stays where it is.
+void wrapped_in(Ctx& c, const std::string& text, ImU32 color, int lines);
 /// Placeholder of an empty panel: an icon, what is missing, what to do.
 void empty_state(Ctx& c, const char* icon, const char* title, const char* what_to_do);
 /// The same while no region is selected.

@@ -63,8 +63,19 @@ void JobDesk::command(const CommandJob& action) {
     }
 }
 
+void JobDesk::note_times() {
+    for (const JobView& job : jobs_) {
+        if (job.state != JobState::kDone || job.estimated_s <= 0) continue;
+        // The record follows a moment later.
+        if (!compared_.insert(job.id).second) continue;
+        timed_.push_back({job.estimated_s, job.elapsed_s});
+        children_.forget_estimate(job.id);
+    }
+}
+
 std::vector<JobDesk::Ended> JobDesk::poll(const std::string& project, const std::string& plate) {
     jobs_ = children_.views();
+    note_times();
     // Those of other shots are in the way while they are not over; then they are not this one's.
     std::erase_if(jobs_, [&](const JobView& job) {
         const bool of_shot =

@@ -2,7 +2,9 @@
 // The render jobs of a session: builds their requests and reports finished ones.
 
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/jobs/child_jobs.h"
@@ -37,6 +39,13 @@ class JobDesk {
     /// over; empty: none.
     [[nodiscard]] std::vector<Ended> poll(const std::string& project, const std::string& plate);
     [[nodiscard]] const std::vector<JobView>& jobs() const { return jobs_; }
+    /// How long a job was to take and took, s.
+    struct Timed {
+        double estimated_s = 0, took_s = 0;
+    };
+    /// The jobs that are done and whose estimate nobody has compared yet, also those that ended
+    /// while no window was open. Each is reported once, to one window.
+    [[nodiscard]] std::vector<Timed> take_timed() { return std::exchange(timed_, {}); }
     [[nodiscard]] std::string log_tail(int id) const { return children_.log_tail(id); }
     /// Increases with every change of a job.
     [[nodiscard]] std::uint64_t changes() const { return children_.changes(); }
@@ -44,7 +53,11 @@ class JobDesk {
   private:
     ChildJobs children_;
     std::vector<JobView> jobs_;
+    void note_times();
+
     std::map<int, JobState> known_;
+    std::vector<Timed> timed_;
+    std::set<int> compared_;
 };
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/base/render_speed.h"
 #include "app/project/codec/project_file.h"
 #include "app/project/validate.h"
 
@@ -68,6 +69,9 @@ void Renders::watch() {
         else
             use_.notices.add(NoticeKind::kGood, "Rendered: " + job.label + ".");
     }
+    for (const JobDesk::Timed& job : jobs_.take_timed())
+        use_.settings.render_speed =
+            calibrated_speed(use_.settings.render_speed, job.estimated_s, job.took_s);
 }
 
 }  // namespace weft

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "app/base/editor_settings.h"
 #include "app/mattes/matte_shelf.h"
 #include "app/session/action.h"
 #include "app/session/document/document.h"
@@ -28,6 +29,7 @@ class Renders {
         MatteShelf& shelf;
         DocumentTasks& tasks;
         Notices& notices;
+        EditorSettings& settings;
         std::function<void()> end_stroke;
         std::string program;       ///< The weft program that renders.
         std::string state_folder;  ///< See editor_state_folder().

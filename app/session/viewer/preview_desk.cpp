@@ -98,14 +98,23 @@ void PreviewDesk::request(double now_s, const std::vector<CardRequest>& cards) {
     Project shown = subject();
     has_subject_ = std::any_of(shown.regions.begin(), shown.regions.end(),
                                [](const Leaf<Region>& region) { return region->enabled; });
-    if (!has_subject_) {
+    // The first texture of a shot is chosen from such cards: their own region is shown in them.
+    const bool for_cards = !has_subject_ && !cards.empty();
+    if (for_cards) shown = cards.front().project;
+    if (!has_subject_ && !for_cards) {
         pending_ = false;
         use_.preview.clear();
         reading_ = {};
         return;
     }
-    if (!use_.preview.try_request(request_for(std::move(shown), cards)))
-        return;  // retried in the next frame
+    PreviewRequest request = request_for(std::move(shown), cards);
+    if (for_cards) {
+        request.range = {request.frame};
+        request.fill.clear();
+        request.stages = false;
+        request.overlay = Overlay::kNone;
+    }
+    if (!use_.preview.try_request(request)) return;  // retried in the next frame
     pending_ = false;
     dragged_at_s_ = use_.document.trying() ? std::optional(now_s) : std::nullopt;
     reading_.frame = {};
@@ -127,6 +136,8 @@ void PreviewDesk::read() {
     if (!use_.preview.try_read(frame, use_.selection.region, use_.selection.layer, reading_) &&
         frame != read_frame_)
         reading_.frame = {};
+    // With a texture that was only suggested.
+    if (!has_subject_) reading_.frame = {};
     read_frame_ = frame;
     failed_ = reading_.view.state == PreviewView::State::kFailed;
     if (const PicturePtr& final = final_of(reading_.frame)) {

@@ -63,7 +63,10 @@ void ShownPlate::advance(double now_s) {
 void ShownPlate::update(const Plate& plate) {
     view_.path = plate.path;
     view_.budget_bytes = budget_bytes_;
-    if (opener_.busy()) view_.state = PlateView::State::kOpening;
+    if (opener_.busy()) {
+        view_.state = PlateView::State::kOpening;
+        view_.counted = opener_.counted();
+    }
     if (plate.path.empty()) view_.state = PlateView::State::kNone;
     if (!reader_) {
         picture_.reset();

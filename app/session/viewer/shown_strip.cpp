@@ -34,8 +34,12 @@ void ShownStrip::update(bool painting, StripView& shown) {
     shown.columns = 0;
     shown.cards.clear();
     const Region* region = use_.selection.of(use_.document.project());
-    const bool possible = use_.plate.reader() && use_.preview.has_subject() &&
-                          (region || strip_.kind() == StripKind::kKeyframes);
+    // Suggestions bring their texture along.
+    const bool something =
+        use_.preview.has_subject() || (strip_.kind() == StripKind::kSuggested && region &&
+                                       region->enabled && !region->matte->empty());
+    const bool possible =
+        use_.plate.reader() && something && (region || strip_.kind() == StripKind::kKeyframes);
     if (strip_.kind() == StripKind::kNone || !possible) {
         if (strip_.clear()) use_.preview.ask();
         return;
