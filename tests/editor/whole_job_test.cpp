@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <fstream>
+#include <string>
 
 #include "app/project/codec/project_file.h"
 #include "engine/media/image_files.h"
@@ -159,7 +160,8 @@ TEST_F(WholeJob, FromTheWelcomeScreenToFrames) {
     picture("11_rendered");
     ASSERT_FALSE(has_ended(pid)) << finish(sandbox_, pid).errors;
     EXPECT_EQ(frames(), 3);
-    for (const char* name : {"1001.png", "1002.png", "1003.png"}) {
+    for (const int number : {1001, 1002, 1003}) {
+        const std::string name = "Courtyard_v001." + std::to_string(number) + ".png";
         const auto frame = read_image((folder / name).string());
         ASSERT_TRUE(frame) << frame.error().text();
         EXPECT_EQ(frame->rgb.size(), (Size{960, 540}));
