@@ -129,7 +129,7 @@ struct Page {
 // sandbox, whose name is drawn.
 const Page kPages[] = {{"mask", "Mask", {272, 112, 320, 120}},
                        {"texture", "Texture", {168, 92, 320, 104}},
-                       {"motion", "Motion", {272, 136, 320, 152}},
+                       {"motion", "Motion", {272, 152, 320, 168}},
                        {"light", "Seams & Light", {}, 8},
                        {"review", "Review", {}},
                        {"jobs", "Jobs", {24, 56, 112, 72}}};
