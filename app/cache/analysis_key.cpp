@@ -15,7 +15,7 @@ namespace weft {
 namespace {
 
 // Increase this when the result of the analysis changes.
-constexpr int kAnalysisVersion = 67;
+constexpr int kAnalysisVersion = 68;
 constexpr int kFormVersion = 10;  // of the form alone
 constexpr int kFocusVersion = 2;  // of the focus alone
 

@@ -17,6 +17,7 @@
 #include "engine/mask/hidden_part.h"
 #include "engine/mask/matte_box.h"
 #include "engine/mask/motion_support.h"
+#include "engine/mask/nearer_side.h"
 #include "engine/mask/nearest_pixel.h"
 #include "engine/mask/scene_pieces.h"
 
@@ -217,6 +218,7 @@ Matte UnseenGround::advance(const GroundStep& step, const SurfacePalette& palett
     }
     own = joined(step, std::move(own), {});
     like = joined(step, std::move(like), own);
+    drop_nearer_outside({step.frame, step.phi, known_, step.unit_px}, like);
     if (any_in(like)) keep_continuing(step, like);
     Matte added = either_of(own, like);
     return any_in(added) ? std::move(added) : Matte();
