@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>

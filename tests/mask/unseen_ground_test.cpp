@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "engine/core/rng.h"
 #include "engine/mask/signed_distance.h"
 #include "engine/mask/uncovered.h"
 #include "tests/mask/moving_disc.h"
@@ -133,6 +134,44 @@ TEST(UnseenGround, WhatHasAnotherColourStaysOutside) {
 // A white table behind a white shirt: coloured nearly as the surface, but there is an edge.
 TEST(UnseenGround, WhatLiesBeyondAnEdgeStaysOutside) {
     EXPECT_EQ(Passing().added({18}), 0);
+}
+
+// A strap hangs over kerb and pavement on the keyframe. Both are of one grit, in which the step
+// between them is lost, and most of what is outside is something else.
+TEST(UnseenGround, WhatLooksRatherLikeTheOutsideBesideItStaysOutside) {
+    const Size size{160, 120};
+    const Recti strap{60, 46, 90, 70};
+    ImageU8x3 now(size);
+    Matte kerb(size);
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            Rng grit(3, static_cast<std::uint64_t>(y), static_cast<std::uint64_t>(x));
+            const int base = y < 60 ? 120 : y < 76 ? 130 : 40;
+            for (int c = 0; c < 3; ++c)
+                now.at(x, y, c) =
+                    static_cast<std::uint8_t>(base + static_cast<int>(grit.below(49)) - 24);
+            kerb.at(x, y) = y < 60 ? 255 : 0;
+        }
+    }
+    ImageF1 key = signed_distance(inside_of(kerb), kGroundLimit_px), found = key;
+    for (int y = strap.y0; y < strap.y1; ++y) {
+        for (int x = strap.x0; x < strap.x1; ++x) {
+            key.at(x, y) = 0;
+            found.at(x, y) = -1;
+        }
+    }
+    const SurfacePalette palette(now, key);
+    UnseenGround ground(now, key);
+    const ImageF2 still(size);
+    const FlowField rests(size);
+    const Matte parting(size);
+    for (int t = 0; t < kSteps; ++t)
+        EXPECT_TRUE(
+            ground
+                .advance({now, now, rests, parting, still, rect_of(size), found, found, 1.0f},
+                         palette)
+                .empty())
+            << t;
 }
 
 // Something of the surface's colours was seen outside on the keyframe. A black frame, on which

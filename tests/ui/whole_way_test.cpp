@@ -29,12 +29,15 @@ class WholeWay : public SessionTest {
             << session->view().plate.error;
         robot->frames(3);
     }
-    void paint_and_texture() {
+    void paint_region() {
         robot->key("Ctrl+Shift+N");
         robot->key("B");
         robot->frames(3);
         robot->stroke({at(20, 24), at(75, 26), at(75, 44), at(20, 42)});
         robot->frames(3);
+    }
+    void paint_and_texture() {
+        paint_region();
         session->act(SetPreviewQuality{Quality::kDraft});
         session->act(ApplyTexture{(folder / "tile.png").string(), 0});
         ASSERT_TRUE(settled()) << session->view().preview.error;
@@ -69,11 +72,7 @@ class WholeWay : public SessionTest {
 // The first texture is chosen from what it would look like, too.
 TEST_F(WholeWay, SuggestionsAreShownOnARegionWithoutATexture) {
     open();
-    robot->key("Ctrl+Shift+N");
-    robot->key("B");
-    robot->frames(3);
-    robot->stroke({at(20, 24), at(75, 26), at(75, 44), at(20, 42)});
-    robot->frames(3);
+    paint_region();
     session->act(SetPreviewQuality{Quality::kDraft});
     const auto shows = [&] {
         const StripView& strip = session->view().strip;
@@ -98,11 +97,7 @@ TEST_F(WholeWay, SuggestionsAreShownOnARegionWithoutATexture) {
 // One number that only grows: it began at 0% again with whatever interrupted the analysis.
 TEST_F(WholeWay, WhatIsThereAlreadyCountsAsAnalysed) {
     open();
-    robot->key("Ctrl+Shift+N");
-    robot->key("B");
-    robot->frames(3);
-    robot->stroke({at(20, 24), at(75, 26), at(75, 44), at(20, 42)});
-    robot->frames(3);
+    paint_region();
     const SessionView& view = session->view();
     session->act(SetPreviewQuality{Quality::kDraft});
     ASSERT_TRUE(wait([&] {
